@@ -1,0 +1,1 @@
+"""Denoising: causal filters for the loop (:mod:`fpt_ros.denoising.streaming`)."""

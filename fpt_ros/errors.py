@@ -1,0 +1,47 @@
+"""What can go wrong, each with the exit status that the command line gives it.
+
+Every message is one line: what is wrong, where, and what would be right.
+"""
+
+import math
+
+
+class FptError(Exception):
+    """Base of all errors that are reported as one line and end the program."""
+
+    exit_status = 1
+
+
+class BadInput(FptError):
+    """An argument, a file or a parameter that cannot be used."""
+
+    exit_status = 2
+
+
+class RunFailed(FptError):
+    """A run that began and could not go on."""
+
+
+class Diverged(RunFailed):
+    """The loop was lost: a quantity left its limit or ceased to be finite.
+
+    Carries ``time`` [s], ``coordinate``, ``quantity``, ``value`` and ``limit`` (``inf``: the value
+    is not finite).
+    """
+
+    def __init__(
+        self,
+        time: float,
+        coordinate: str,
+        quantity: str,
+        value: float,
+        limit: float = math.inf,
+        remedy: str = "",
+    ) -> None:
+        self.time, self.coordinate = time, coordinate
+        self.quantity, self.value, self.limit = quantity, value, limit
+        why = f"is over its limit of {limit:g}" if math.isfinite(value) else "is not finite"
+        hint = f" ({remedy})" if remedy else ""
+        super().__init__(
+            f"diverged at t = {time:.6g} s: the {quantity} of {coordinate}, {value:g}, {why}{hint}"
+        )

@@ -1,0 +1,213 @@
+"""Experiments: parameter files, their variants, and what was changed on the command line."""
+
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass, field
+from functools import partial
+from pathlib import Path
+from typing import cast
+
+from fpt_ros.errors import BadInput
+from fpt_ros.loop import description, parameter_file
+from fpt_ros.loop.denoiser import Denoiser
+from fpt_ros.loop.fpt_deformer import FptDeformer
+from fpt_ros.loop.locate import config_directory
+from fpt_ros.loop.parameter_file import ParameterFile
+from fpt_ros.loop.parameter_tuner import ParameterTuner, in_the_loop
+from fpt_ros.loop.plant_simulator import PlantSimulator
+from fpt_ros.loop.stages import STAGES
+from fpt_ros.loop.trajectory_generator import TrajectoryGenerator
+from fpt_ros.parameters import Parameter, Value, Values, resolve, word
+
+BASE = "adaptive"
+"""Name of the variant that is the file itself, without an overlay."""
+
+SECTIONS: dict[str, Callable[[Values], tuple[Parameter, ...]]] = {
+    **{name: stage.parameters for name, stage in STAGES.items()},
+    description.NODE: description.parameters,
+}
+"""The nodes of a file, each with its parameters as a function of what is given."""
+
+
+@dataclass(frozen=True)
+class Loop:
+    """The five stages of one run, ready for cycle 0."""
+
+    plant: PlantSimulator
+    denoiser: Denoiser
+    trajectory: TrajectoryGenerator
+    tuner: ParameterTuner
+    deformer: FptDeformer
+
+
+@dataclass(frozen=True)
+class Experiment:
+    """A run that could be made: complete, checked parameters of every node.
+
+    Attributes:
+        name, variant: what it goes by.
+        nodes: parameters by node; the recorder's section is the description.
+    """
+
+    name: str
+    variant: str
+    nodes: dict[str, dict[str, Value]] = field(repr=False)
+
+    @property
+    def about(self) -> dict[str, Value]:
+        """The description: title, shows, thesis, settle_time."""
+        return self.nodes[description.NODE]
+
+    def loop(self) -> Loop:
+        """Fresh stages.
+
+        Raises:
+            BadInput: the stages do not fit each other.
+        """
+        loop = Loop(
+            PlantSimulator(self.nodes[PlantSimulator.name]),
+            Denoiser(self.nodes[Denoiser.name]),
+            TrajectoryGenerator(self.nodes[TrajectoryGenerator.name]),
+            ParameterTuner(self.nodes[ParameterTuner.name]),
+            FptDeformer(self.nodes[FptDeformer.name]),
+        )
+        _check_fit(loop)
+        return loop
+
+    def with_values(self, node: str, **changes: Value) -> "Experiment":
+        """The same experiment with some parameters of a node changed."""
+        nodes = {**self.nodes, node: {**self.nodes[node], **changes}}
+        return Experiment(self.name, self.variant, nodes)
+
+    def write(self, path: Path) -> None:
+        """Write it as one parameter file for all nodes."""
+        parameter_file.write(path, self.nodes)
+
+
+def available() -> dict[str, list[str]]:
+    """Names of all experiments of this package, each with its variants, the base first."""
+    found: dict[str, list[str]] = {}
+    for path in sorted(config_directory().glob("*.yaml")):
+        name, _, variant = path.stem.partition(".")
+        variants = found.setdefault(name, [BASE])
+        if variant:
+            variants.append(variant)
+    return found
+
+
+def load(
+    name: str,
+    variant: str = BASE,
+    settings: Iterable[str] = (),
+    duration: float | None = None,
+    seed: int | None = None,
+) -> Experiment:
+    """Read an experiment and apply a variant and settings to it.
+
+    Args:
+        name: of an experiment of the package, or the path of a parameter file.
+        variant: its overlay ``NAME.VARIANT.yaml``; ``adaptive``: none.
+        settings: ``NODE.PARAM=VALUE`` each.
+        duration: length of the run [s].
+        seed: random seed.
+
+    Raises:
+        BadInput: anything that is not valid, in one line that says what is.
+    """
+    path = _path_of(name)
+    file = base = parameter_file.read(path)
+    for section in SECTIONS:
+        if section not in base.nodes:
+            raise BadInput(f"{path} lacks the section '{section}': it takes {', '.join(SECTIONS)}")
+    if variant != BASE:
+        file = base.overlay(parameter_file.read(_variant_path(path, variant)))
+    for unknown in file.nodes.keys() - SECTIONS.keys():
+        raise BadInput(f"{path}: there is no node '{unknown}', only {', '.join(SECTIONS)}")
+    changes = [_setting(text) for text in settings]
+    if duration is not None:
+        changes.append((PlantSimulator.name, "duration", duration))
+    if seed is not None:
+        changes.append((PlantSimulator.name, "seed", seed))
+    for node, parameter, value in changes:
+        _apply(file, node, parameter, value)
+    file.nodes[description.NODE].update(experiment=path.stem, variant=variant)
+    in_loop = in_the_loop(file.nodes[ParameterTuner.name])
+    for node in file.nodes.values():
+        node.pop("await_tuning", None)
+    file.shared["await_tuning"] = in_loop
+    explicit = {(node, parameter) for node, parameter, _ in changes}
+    nodes = {node: _resolve(node, file, base, explicit) for node in SECTIONS}
+    experiment = Experiment(path.stem, variant, nodes)
+    experiment.loop()
+    return experiment
+
+
+def _path_of(name: str) -> Path:
+    if name.endswith((".yaml", ".yml")) or "/" in name:
+        return Path(name)
+    if name not in available():
+        raise BadInput(f"no experiment '{name}': there are {', '.join(available())}")
+    return config_directory() / f"{name}.yaml"
+
+
+def _variant_path(path: Path, variant: str) -> Path:
+    overlay = path.with_name(f"{path.stem}.{variant}.yaml")
+    if not overlay.is_file() or "/" in variant:
+        found = [p.stem.partition(".")[2] for p in sorted(path.parent.glob(f"{path.stem}.*.yaml"))]
+        valid = ", ".join([BASE, *found])
+        raise BadInput(f"{path.stem} has no variant '{variant}': it has {valid}")
+    return overlay
+
+
+def _setting(text: str) -> tuple[str, str, object]:
+    """Split ``NODE.PARAM=VALUE``."""
+    target, equals, value = text.partition("=")
+    node, dot, parameter = target.strip().partition(".")
+    if not (equals and dot and parameter):
+        raise BadInput(f"--set {text}: it takes NODE.PARAM=VALUE, as in fpt_deformer.A=-0.2")
+    return node, parameter, parameter_file.scalar(value)
+
+
+def _apply(file: ParameterFile, node: str, parameter: str, value: object) -> None:
+    """Set one value; one that nodes share is set for all of them."""
+    if node not in SECTIONS:
+        raise BadInput(f"there is no node '{node}': there are {', '.join(SECTIONS)}")
+    target = file.nodes[node]
+    if parameter in file.shared and parameter not in target:
+        target = file.shared
+    target[parameter] = cast(Value, value)
+
+
+def _resolve(
+    node: str, file: ParameterFile, base: ParameterFile, explicit: set[tuple[str, str]]
+) -> dict[str, Value]:
+    """Complete, checked parameters of a node.
+
+    A value of the base file that belongs to a law which the variant replaced is dropped.
+    """
+    declared = partial(_declared, SECTIONS[node])
+    before = declared({**base.shared, **base.nodes[node]})
+    given = {**file.shared, **file.nodes[node]}
+    now = declared(given)
+    own = {
+        name: value
+        for name, value in file.nodes[node].items()
+        if name in now or name not in before or (node, name) in explicit
+    }
+    shared = {name: value for name, value in file.shared.items() if name in now}
+    return resolve(SECTIONS[node](given), {**shared, **own}, node)
+
+
+def _declared(parameters: Callable[[Values], tuple[Parameter, ...]], given: Values) -> set[str]:
+    return {parameter.name for parameter in parameters(given)}
+
+
+def _check_fit(loop: Loop) -> None:
+    """The model is one of the plant's coordinates, and can prescribe what is controlled."""
+    plant, model = loop.plant.coordinates, loop.deformer.coordinates
+    if model != plant:
+        raise BadInput(
+            f"fpt_deformer.model: {word(loop.deformer.values, 'model')} has the coordinates "
+            f"{', '.join(model)}, the plant {', '.join(plant)}"
+        )
+    loop.deformer.check_controlled(loop.trajectory.controlled)
+

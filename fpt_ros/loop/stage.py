@@ -1,0 +1,109 @@
+"""What all stages of the loop share.
+
+A stage is one box of the loop: parameters, a small numeric state, and a step from the frames of its
+cycle to the frame that it publishes. It knows no ROS and no clock but the stamps of its frames, so
+the in-process engine, a node and a replay run the same object and get the same bits.
+"""
+
+from abc import ABC, abstractmethod
+from array import array
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import ClassVar
+
+from fpt_ros.errors import BadInput
+from fpt_ros.messages.frames import SECOND, Names
+from fpt_ros.messages.topics import Topic
+from fpt_ros.parameters import Parameter, Values, resolve
+
+
+@dataclass(frozen=True)
+class Input:
+    """A topic that a stage needs in every cycle.
+
+    ``lag`` 0: the message of the same cycle; 1: that of the cycle before, of which there is none in
+    the first cycle.
+    """
+
+    topic: Topic
+    lag: int = 0
+
+
+class Stage(ABC):
+    """Base of the five stages.
+
+    Attributes:
+        name: of the node that runs it, and of its section in a parameter file.
+        output: the topic that it publishes.
+        values: all parameters, complete and checked.
+        state: what it remembers, as doubles; sized by the first frame.
+        clock: stamps [ns] of the first and of the latest cycle seen, -1 before.
+    """
+
+    name: ClassVar[str]
+    output: ClassVar[Topic]
+
+    def __init__(self, given: Values) -> None:
+        """Configure from parameters by name.
+
+        Raises:
+            BadInput: an unknown, missing or invalid parameter.
+        """
+        self.values = resolve(self.parameters(given), given, self.name)
+        self.state = array("d")
+        self.clock = array("q", (-1, -1))
+        self._prepare()
+
+    @classmethod
+    @abstractmethod
+    def parameters(cls, given: Values) -> tuple[Parameter, ...]:
+        """Parameters of the stage; which ones depends on the laws that ``given`` names.
+
+        Raises:
+            BadInput: ``given`` names a law that is not registered.
+        """
+
+    @property
+    def inputs(self) -> tuple[Input, ...]:
+        """Topics that each step needs, in the order of the step's arguments."""
+        return ()
+
+    def configure(self, changes: Values) -> None:
+        """Change live parameters; what was remembered stays.
+
+        Raises:
+            BadInput: nothing is changed then.
+        """
+        before = self.values
+        self.values = resolve(self.parameters(before), {**before, **changes}, self.name)
+        try:
+            self._prepare()
+        except BadInput:
+            self.values = before
+            self._prepare()
+            raise
+
+    @abstractmethod
+    def _prepare(self) -> None:
+        """Work out the constants of the laws from ``values``."""
+
+    def _advance_clock(self, stamp: int) -> tuple[float, float]:
+        """Time since the first cycle and since the latest one [s]; 0.0 and 0.0 in the first."""
+        first, latest = self.clock
+        if first < 0:
+            self.clock[0] = self.clock[1] = stamp
+            return 0.0, 0.0
+        self.clock[1] = stamp
+        return (stamp - first) / SECOND, (stamp - latest) / SECOND
+
+
+def indices(wanted: Sequence[str], names: Names, who: str) -> tuple[int, ...]:
+    """Where each wanted coordinate stands among ``names``.
+
+    Raises:
+        BadInput: one is not there; ``who`` names the parameter that asks for it.
+    """
+    for name in wanted:
+        if name not in names:
+            raise BadInput(f"{who}: there is no coordinate '{name}', only {', '.join(names)}")
+    return tuple(names.index(name) for name in wanted)

@@ -1,0 +1,34 @@
+"""The modified tuning of AIDC (thesis (2.11), with the deformed response (2.12)).
+
+Only the projection of the coefficients' error onto the row Y is known; it is made to decay with the
+rate alpha: Theta^' = alpha E Y^T / (||Y||^2 + epsilon), E = m^ (r - q'') = Y (Theta - Theta^) - d.
+For a model of one row. m^ = 0 is absorbing: a disturbance that drags m^ there stops the learning.
+"""
+
+from fpt_ros.laws import MutableVector, Vector
+from fpt_ros.parameters import Parameter, Values, number
+from fpt_ros.tuning import Identification
+
+PARAMETERS = (
+    Parameter("alpha", "rate at which the known part of the error decays", 1.0, unit="1/s"),
+    Parameter("epsilon", "keeps the division defined where Y vanishes", 1e-6, above=0.0),
+)
+
+
+def prepare(values: Values) -> tuple[float, ...]:
+    """Constants (alpha, epsilon)."""
+    return number(values, "alpha"), number(values, "epsilon")
+
+
+def rate(constants: Vector, Y: Vector, error: Vector, out: MutableVector) -> None:
+    """(2.11) for the first row of Y."""
+    alpha, epsilon = constants
+    square = epsilon
+    for j in range(len(out)):
+        square += Y[j] * Y[j]
+    factor = alpha * error[0] / square
+    for j in range(len(out)):
+        out[j] = factor * Y[j]
+
+
+PROJECTION = Identification(PARAMETERS, prepare, rate)
