@@ -12,12 +12,12 @@ Relaxation = Callable[[float, float, float, float, float], float]
 
 
 def pd(lam: float, nominal: float, e: float, e_dot: float, e_integral: float) -> float:
-    """q''Des = q''N + Lambda^2 e + 2 Lambda e' (section 2.3)."""
+    """Return q''Des = q''N + Lambda^2 e + 2 Lambda e' (section 2.3)."""
     return nominal + lam * lam * e + 2.0 * lam * e_dot
 
 
 def pid(lam: float, nominal: float, e: float, e_dot: float, e_integral: float) -> float:
-    """q''Des = q''N + 3 Lambda^2 e + 3 Lambda e' + Lambda^3 int e (section 3.2.2, (4.11d))."""
+    """Return q''Des = q''N + 3 Lambda^2 e + 3 Lambda e' + Lambda^3 int e (4.11d)."""
     return nominal + lam * (lam * (3.0 * e + lam * e_integral) + 3.0 * e_dot)
 
 

@@ -1,8 +1,9 @@
 """The types that all laws share.
 
-A law is written on plain numbers, element by element: it reads its vectors by index, writes results
-into ``out``, and keeps what it remembers in a small ``state`` vector. Such code runs as it stands on
-tuples, lists, arrays and mapped memory, gives the same bits on all of them, and can be compiled.
+A law is written on plain numbers, element by element: it reads its vectors by index, writes its
+results into ``out``, and keeps what it remembers in a small ``state`` vector. Such code runs as it
+stands on tuples, lists, arrays and mapped memory, gives the same bits on all of them, and can be
+compiled.
 """
 
 import math

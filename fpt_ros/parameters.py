@@ -5,8 +5,8 @@ ROS nodes both check values with them, so that a bad value gets the same one-lin
 """
 
 import math
-from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Iterable, Mapping, Sequence, Set
+from dataclasses import dataclass, replace
 
 from fpt_ros.errors import BadInput
 
@@ -18,7 +18,7 @@ Values = Mapping[str, Value]
 
 _WORDS = {
     "bool": "true or false",
-    "int": "an integer",
+    "int": "an integer of 64 bits",
     "float": "a number",
     "str": "a word",
     "floats": "a list of numbers",
@@ -97,11 +97,11 @@ class Parameter:
         label = f"{where}.{self.name}" if where else self.name
         wrong = BadInput(f"{label}: {value!r} is not valid, it takes {self.describe_valid()}")
         if self.kind in ("floats", "strings"):
-            if isinstance(value, str | bytes) or not isinstance(value, Iterable):
+            unordered = isinstance(value, str | bytes | Mapping | Set)
+            if unordered or not isinstance(value, Iterable):
                 raise wrong
             kind = self.kind[:-1] if self.kind == "floats" else "str"
-            items = [self._scalar(item, kind, wrong) for item in value]
-            return items  # type: ignore[return-value]
+            return [self._scalar(item, kind, wrong) for item in value]  # type: ignore[return-value]
         return self._scalar(value, self.kind, wrong)
 
     def _scalar(self, value: object, kind: str, wrong: BadInput) -> bool | int | float | str:
@@ -113,6 +113,8 @@ class Parameter:
             return value
         if kind in ("int", "float") and isinstance(value, int | float):
             if isinstance(value, bool) or (kind == "int" and not isinstance(value, int)):
+                raise wrong
+            if isinstance(value, int) and not -(2**63) <= value < 2**63:  # as ROS stores it
                 raise wrong
             number = float(value)
             in_range = self.minimum <= number <= self.maximum and number > self.above
@@ -149,8 +151,6 @@ def group(values: Values, prefix: str, parameters: Iterable[Parameter]) -> tuple
 
 def prefixed(prefix: str, parameters: Iterable[Parameter]) -> tuple[Parameter, ...]:
     """The same parameters under ``prefix.``, as a stage declares those of its law."""
-    from dataclasses import replace
-
     return tuple(replace(parameter, name=f"{prefix}.{parameter.name}") for parameter in parameters)
 
 

@@ -19,6 +19,11 @@ if TYPE_CHECKING:
     from fpt_ros.tuning import Identification
 
 
+_CALLED = {"tuning": "tuning laws"}
+_NONE = {"transformations": ("none",), "tuning": ("none",)}
+"""Kinds of which a stage can do without one: what it is then called."""
+
+
 @cache
 def _group(kind: str) -> dict[str, EntryPoint]:
     return {point.name: point for point in entry_points(group=f"fpt_ros.{kind}")}
@@ -32,12 +37,17 @@ def names(kind: str) -> tuple[str, ...]:
 @cache
 def _load(kind: str, name: str) -> object:
     if name not in _group(kind):
-        valid = ", ".join(names(kind)) or "none registered (is fpt_ros installed? run make setup)"
-        raise BadInput(f"'{name}' is none of the {kind}: {valid}")
+        called = _CALLED.get(kind, kind)
+        if not names(kind):
+            raise BadInput(f"no {called} are registered: is fpt_ros installed? run make setup")
+        valid = ", ".join((*_NONE.get(kind, ()), *names(kind)))
+        raise BadInput(f"'{name}' is none of the {called}: {valid}")
     try:
         return _group(kind)[name].load()
     except (ImportError, AttributeError) as error:
-        raise BadInput(f"'{name}' of the {kind} cannot be loaded: {error}") from error
+        raise BadInput(
+            f"'{name}' of the {_CALLED.get(kind, kind)} cannot be loaded: {error}"
+        ) from error
 
 
 def plant(name: str) -> "Plant":

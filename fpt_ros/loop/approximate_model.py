@@ -1,4 +1,4 @@
-"""The approximate model as two stages hold it: the deformer computes with it, the tuner tunes it."""
+"""The approximate model, held by two stages: the deformer computes with it, the tuner tunes it."""
 
 from fpt_ros import registry
 from fpt_ros.parameters import Parameter, Values, prefixed

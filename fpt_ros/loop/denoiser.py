@@ -33,7 +33,7 @@ class Denoiser(Stage):
         self._filter = registry.streaming_filter(word(self.values, "method"))
 
     def step(self, measured: JointStates) -> StateEstimate:
-        """Filtered motion at t_k and the response to r_{k-1}; no response (NaN) in the first cycle."""
+        """Filtered motion at t_k and the response to r_{k-1}; NaN for it in the first cycle."""
         stamp, names, q, v, _ = measured
         n = len(names)
         _, dt = self._advance_clock(stamp)

@@ -114,14 +114,16 @@ def load(
         BadInput: anything that is not valid, in one line that says what is.
     """
     path = _path_of(name)
-    file = base = parameter_file.read(path)
+    base, overlay = parameter_file.read(path), ParameterFile()
     for section in SECTIONS:
         if section not in base.nodes:
             raise BadInput(f"{path} lacks the section '{section}': it takes {', '.join(SECTIONS)}")
+    _check_nodes(path, base)
     if variant != BASE:
-        file = base.overlay(parameter_file.read(_variant_path(path, variant)))
-    for unknown in file.nodes.keys() - SECTIONS.keys():
-        raise BadInput(f"{path}: there is no node '{unknown}', only {', '.join(SECTIONS)}")
+        overlay_path = _variant_path(path, variant)
+        overlay = parameter_file.read(overlay_path)
+        _check_nodes(overlay_path, overlay)
+    file = base.overlay(overlay)
     changes = [_setting(text) for text in settings]
     if duration is not None:
         changes.append((PlantSimulator.name, "duration", duration))
@@ -131,14 +133,48 @@ def load(
         _apply(file, node, parameter, value)
     file.nodes[description.NODE].update(experiment=path.stem, variant=variant)
     in_loop = in_the_loop(file.nodes[ParameterTuner.name])
-    for node in file.nodes.values():
-        node.pop("await_tuning", None)
+    for node, parameter, value in changes:
+        if parameter == "await_tuning" and value != in_loop:
+            raise BadInput(f"{node}.await_tuning follows from parameter_tuner.method: {in_loop}")
+    for section_values in file.nodes.values():
+        section_values.pop("await_tuning", None)
     file.shared["await_tuning"] = in_loop
+    _check_shared(path, file, base)
     explicit = {(node, parameter) for node, parameter, _ in changes}
     nodes = {node: _resolve(node, file, base, explicit) for node in SECTIONS}
     experiment = Experiment(path.stem, variant, nodes)
     experiment.loop()
     return experiment
+
+
+def complete(file: ParameterFile) -> dict[str, dict[str, Value]]:
+    """Complete, checked parameters of the nodes that a file has sections for.
+
+    Raises:
+        BadInput: as :func:`load`.
+    """
+    return {node: _resolve(node, file, file, set()) for node in SECTIONS if node in file.nodes}
+
+
+def _check_nodes(path: Path, file: ParameterFile) -> None:
+    """Every section of a file is a node's."""
+    for node in file.nodes:
+        if node not in SECTIONS:
+            raise BadInput(f"{path}: there is no node '{node}', only {', '.join(SECTIONS)}")
+
+
+def _check_shared(path: Path, file: ParameterFile, base: ParameterFile) -> None:
+    """Every shared value is known to a node, or was to one in the base file."""
+    known: set[str] = set()
+    for version in (base, file):
+        for node, parameters in SECTIONS.items():
+            known |= _declared(parameters, {**version.shared, **version.nodes[node]})
+    for name in file.shared:
+        if name not in known:
+            raise BadInput(
+                f"{path}: no node has the parameter '{name}' of the section "
+                f"{parameter_file.SHARED}: there are {', '.join(sorted(known))}"
+            )
 
 
 def _path_of(name: str) -> Path:
@@ -193,7 +229,11 @@ def _resolve(
         for name, value in file.nodes[node].items()
         if name in now or name not in before or (node, name) in explicit
     }
-    shared = {name: value for name, value in file.shared.items() if name in now}
+    shared = {
+        name: value
+        for name, value in file.shared.items()
+        if name in now or (node, name) in explicit
+    }
     return resolve(SECTIONS[node](given), {**shared, **own}, node)
 
 
@@ -202,7 +242,7 @@ def _declared(parameters: Callable[[Values], tuple[Parameter, ...]], given: Valu
 
 
 def _check_fit(loop: Loop) -> None:
-    """The model is one of the plant's coordinates, and can prescribe what is controlled."""
+    """The model is of the plant's coordinates and of the tuner's, and can do what is asked."""
     plant, model = loop.plant.coordinates, loop.deformer.coordinates
     if model != plant:
         raise BadInput(
@@ -210,4 +250,8 @@ def _check_fit(loop: Loop) -> None:
             f"{', '.join(model)}, the plant {', '.join(plant)}"
         )
     loop.deformer.check_controlled(loop.trajectory.controlled)
-
+    if loop.tuner.active and loop.tuner.values["model"] != loop.deformer.values["model"]:
+        raise BadInput(
+            f"parameter_tuner.model: {word(loop.tuner.values, 'model')} is not the deformer's, "
+            f"{word(loop.deformer.values, 'model')}"
+        )

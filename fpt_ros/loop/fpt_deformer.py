@@ -99,15 +99,17 @@ class FptDeformer(Stage):
         return Command(stamp, model.coordinates, deformed, effort)
 
     def _deform(self, t: float, desired: list[float], response: list[float]) -> list[float]:
-        """r_k over the controlled coordinates; one that is controlled anew starts at its desired."""
+        """r_k of the controlled coordinates; one that is controlled anew gets the desired one."""
         assert self._transformation is not None
         r, h = desired.copy(), [0.0] * len(desired)
+        anew = [math.isnan(self.state[at]) for at in self._where]
         for i, at in enumerate(self._where):
-            if not math.isnan(self.state[at]):
+            if not anew[i]:
                 r[i] = self.state[at]
                 h[i] = response[i] - desired[i]
         out = [0.0] * len(r)
         self._transformation.deform(self._constants, r, h, out)
+        out = [desired[i] if anew[i] else value for i, value in enumerate(out)]
         for i, value in enumerate(out):
             if not math.isfinite(value):
                 name = self._model.coordinates[self._where[i]]
@@ -132,6 +134,6 @@ class FptDeformer(Stage):
             if name not in self._model.controlled:
                 valid = ", ".join(self._model.controlled)
                 raise BadInput(
-                    f"{self.name}.model: {word(self.values, 'model')} cannot prescribe the response "
-                    f"of '{name}', only of {valid} (see trajectory_generator.controlled)"
+                    f"{self.name}.model: {word(self.values, 'model')} cannot prescribe the "
+                    f"response of '{name}', only of {valid} (see trajectory_generator.controlled)"
                 )

@@ -1,4 +1,4 @@
-"""Where the package's data files are: in a source tree, a colcon workspace or a pip installation."""
+"""Where the package's data files are: source tree, colcon workspace or pip installation."""
 
 import os
 import sys

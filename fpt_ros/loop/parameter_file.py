@@ -26,7 +26,7 @@ class ParameterFile:
     nodes: dict[str, dict[str, Value]] = field(default_factory=dict)
 
     def overlay(self, other: "ParameterFile") -> "ParameterFile":
-        """This file with the values of ``other`` on top."""
+        """A copy of the file with the values of ``other`` on top."""
         nodes = {name: dict(values) for name, values in self.nodes.items()}
         for name, values in other.nodes.items():
             nodes.setdefault(name, {}).update(values)

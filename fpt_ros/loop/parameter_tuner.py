@@ -77,8 +77,7 @@ class ParameterTuner(Stage):
             regressor, rate = [0.0] * (model.rows * size), [0.0] * size
             self._regressor(last_q, last_v, response, regressor)
             error = [
-                command.effort[i]
-                - sum([regressor[i * size + j] * theta[j] for j in range(size)])
+                command.effort[i] - sum([regressor[i * size + j] * theta[j] for j in range(size)])
                 for i in range(model.rows)
             ]
             self._rate(self._constants, regressor, error, rate)

@@ -22,7 +22,7 @@ from fpt_ros.parameters import (
 
 STRUCTURE = (
     Parameter("plant", "exact dynamics, by its registered name", kind="str", live=False),
-    Parameter("dt", "control cycle, a whole number of nanoseconds", unit="s", above=0.0, live=False),
+    Parameter("dt", "control cycle, whole nanoseconds", unit="s", above=0.0, live=False),
     Parameter("duration", "length of the run", unit="s", above=0.0, live=False),
     Parameter("seed", "random seed of the measurement noise", 0, minimum=0, live=False),
     Parameter("substeps", "Euler steps in a cycle", 1, minimum=1, maximum=1000, live=False),
@@ -176,4 +176,3 @@ class PlantSimulator(Stage):
 
 def _doubles(values: list[float]) -> "array[float]":
     return array("d", values)
-

@@ -1,12 +1,15 @@
 """A run as arrays: what analysis works on, whether it comes from the engine or from a recording."""
 
 from array import array
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import NDArray
 
+from fpt_ros import __version__
+from fpt_ros.laws import Vector
+from fpt_ros.loop.experiment import Experiment
 from fpt_ros.messages.frames import SECOND, Frame, Names
 from fpt_ros.messages.topics import LOOP_TOPICS, Topic
 from fpt_ros.parameters import Value
@@ -53,6 +56,18 @@ class Run:
     topics: Mapping[str, Series]
 
 
+def describe(experiment: Experiment, engine: str, reason: str) -> dict[str, str]:
+    """The ``info`` of a run: ``engine`` is in_process or graph, ``reason`` empty if complete."""
+    return {
+        "experiment": experiment.name,
+        "variant": experiment.variant,
+        "engine": engine,
+        "version": __version__,
+        "complete": "false" if reason else "true",
+        "reason": reason,
+    }
+
+
 @dataclass
 class Collector:
     """Gathers frames into a :class:`Run`, eight bytes a number."""
@@ -68,7 +83,7 @@ class Collector:
             self._stamps[key] = array("q")
             self._names[key] = frame.names
             self._numbers[key] = {name: array("d") for name in topic.vectors}
-        vectors = frame[2:]
+        vectors: Iterable[Vector] = frame[2:]
         if frame.names != self._names[key]:
             vectors = self._aligned(topic, frame)
         self._stamps[key].append(frame.stamp)
@@ -99,10 +114,11 @@ class Collector:
         for topic in LOOP_TOPICS:
             if topic.name in self._stamps:
                 names, count = self._names[topic.name], len(self._stamps[topic.name])
+                # copies: an array that shares its memory with numpy could not grow any more
                 vectors = {
-                    key: np.frombuffer(numbers, dtype=np.float64).reshape(count, len(names))
+                    key: np.array(numbers, dtype=np.float64).reshape(count, len(names))
                     for key, numbers in self._numbers[topic.name].items()
                 }
-                stamps = np.frombuffer(self._stamps[topic.name], dtype=np.int64)
+                stamps = np.array(self._stamps[topic.name], dtype=np.int64)
                 result[topic.name] = Series(stamps, names, vectors)
         return result

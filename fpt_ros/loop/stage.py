@@ -72,10 +72,17 @@ class Stage(ABC):
         """Change live parameters; what was remembered stays.
 
         Raises:
-            BadInput: nothing is changed then.
+            BadInput: one is unknown, not live or not valid; nothing is changed then.
         """
-        before = self.values
-        self.values = resolve(self.parameters(before), {**before, **changes}, self.name)
+        before, declared = self.values, self.parameters(self.values)
+        values = resolve(declared, {**before, **changes}, self.name)
+        for parameter in declared:
+            if not parameter.live and values[parameter.name] != before[parameter.name]:
+                live = ", ".join(sorted(each.name for each in declared if each.live)) or "none"
+                raise BadInput(
+                    f"{self.name}.{parameter.name} cannot change while the loop runs, only {live}"
+                )
+        self.values = values
         try:
             self._prepare()
         except BadInput:

@@ -54,6 +54,11 @@ class TrajectoryGenerator(Stage):
         self._frequency = numbers(values, "frequency")
         self._lambda = number(values, "lambda")
         c = len(self.controlled)
+        if not 0 < c == len(set(self.controlled)):
+            raise BadInput(
+                f"{self.name}.controlled: {list(self.controlled)} is not valid, it takes one or "
+                "more different coordinates of the plant"
+            )
         for name, given in (("amplitude", self._amplitude), ("frequency", self._frequency)):
             if len(given) != c:
                 wanted = ", ".join(self.controlled)

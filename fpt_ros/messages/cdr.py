@@ -1,9 +1,10 @@
 """Frames to CDR bytes and back, without message objects.
 
 Once the names are known, a loop message has a fixed layout: the stamp stands at byte 4, and each
-array of doubles at an offset that never changes. A :class:`Codec` works a layout out once, keeps it,
-and from then on packs and unpacks numbers in place. Bytes of another layout (another set of names,
-as in time sharing, or another endianness) are parsed in full and their layout is kept too.
+array of doubles at an offset that never changes. A :class:`Codec` works a layout out once, keeps
+it, and from then on packs and unpacks numbers in place. Bytes of another layout (another set of
+names, as in time sharing, or another endianness) are parsed in full; for decoding the layout met
+last is kept, for encoding all of them.
 """
 
 import struct

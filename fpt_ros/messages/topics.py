@@ -1,5 +1,6 @@
 """The loop's topics: name, ROS type, and where each vector of a frame stands in the message."""
 
+import builtins
 from dataclasses import dataclass
 
 from fpt_ros.messages.frames import Command, Desired, Frame, JointStates, StateEstimate, Tuning
@@ -27,7 +28,7 @@ class Topic:
 
     name: str
     type: str
-    frame: type[Frame]
+    frame: builtins.type[Frame]
     fields: tuple[str, ...]
 
     @property
@@ -36,15 +37,11 @@ class Topic:
         return self.frame._fields[2:]
 
 
-JOINT_STATES = Topic(
-    "joint_states", JOINT_STATE, JointStates, ("position", "velocity", "effort")
-)
+JOINT_STATES = Topic("joint_states", JOINT_STATE, JointStates, ("position", "velocity", "effort"))
 STATE_ESTIMATE = Topic(
     "state_estimate", JOINT_TRAJECTORY, StateEstimate, ("positions", "velocities", "accelerations")
 )
-DESIRED = Topic(
-    "desired", JOINT_TRAJECTORY, Desired, ("positions", "velocities", "accelerations")
-)
+DESIRED = Topic("desired", JOINT_TRAJECTORY, Desired, ("positions", "velocities", "accelerations"))
 TUNING = Topic("tuning", JOINT_STATE, Tuning, ("position",))
 COMMAND = Topic("command", JOINT_TRAJECTORY, Command, ("accelerations", "effort"))
 

@@ -56,10 +56,7 @@ def effort(c: Vector, q: Vector, v: Vector, r: Vector, out: MutableVector) -> No
     coupling = c[0] * cos
     centrifugal = sin / cos * v[0] * v[0]
     out[0] = (
-        (coupling - c[1] * c[3] / coupling) * r[2]
-        + c[2] * r[1]
-        + c[1] * centrifugal
-        - c[4] * sin
+        (coupling - c[1] * c[3] / coupling) * r[2] + c[2] * r[1] + c[1] * centrifugal - c[4] * sin
     )
     out[1] = c[2] * (r[1] - c[3] / coupling * r[2] + centrifugal)
     out[2] = 0.0

@@ -1,4 +1,6 @@
-"""Fifth order van der Pol oscillator (thesis, section 2.2, (2.1) and (2.2))::
+"""Fifth order van der Pol oscillator (thesis, section 2.2).
+
+From (2.1) and (2.2)::
 
     m q'' + mu (q^2 - c) q' + k q + beta q^3 + lambda q^5 = F
 

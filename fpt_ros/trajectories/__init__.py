@@ -16,6 +16,4 @@ class Trajectory:
             the coordinate; ``frequency`` multiplies time ([rad/s] for harmonic shapes).
     """
 
-    nominal: Callable[
-        [Vector, Vector, float, MutableVector, MutableVector, MutableVector], None
-    ]
+    nominal: Callable[[Vector, Vector, float, MutableVector, MutableVector, MutableVector], None]

@@ -14,7 +14,7 @@ def nominal(
     out_v: MutableVector,
     out_a: MutableVector,
 ) -> None:
-    """a sin(w t), a w cos(w t), -a w^2 sin(w t), with w in [rad/s]."""
+    """Write a sin(w t), a w cos(w t), -a w^2 sin(w t), with w in [rad/s]."""
     for i in range(len(amplitude)):
         w = frequency[i]
         out_q[i] = amplitude[i] * math.sin(w * t)

@@ -16,7 +16,7 @@ PERIOD = SPACING * (len(VALUES) - 1)
 
 @cache
 def pieces() -> tuple[tuple[float, ...], ...]:
-    """The cubic of each piece as (c0, c1, c2, c3), x = c0 + c1 s + c2 s^2 + c3 s^3, s from its knot."""
+    """Each piece as (c0, c1, c2, c3): x = c0 + c1 s + c2 s^2 + c3 s^3, s [s] from its knot."""
     from scipy.interpolate import CubicSpline
 
     knots = [SPACING * i for i in range(len(VALUES))]

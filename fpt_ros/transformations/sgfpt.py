@@ -22,7 +22,9 @@ from fpt_ros.transformations import FORM, TINY, Transformation
 PARAMETERS = (
     Parameter("A", "gain of the response error; its sign is that of convergence", -0.1),
     Parameter("K", "how far the graph of tanh is shifted down", 0.5, above=0.0, maximum=2.0),
-    Parameter("D", "how far the shifted graph's inverse is shifted up", 0.6, above=0.0),
+    Parameter(
+        "D", "how far the shifted graph's inverse is shifted up", 0.6, above=0.0, maximum=10.0
+    ),
     Parameter("guard", "keep the argument above the repulsive fixed point", True),
     FORM,
 )

@@ -1,0 +1,183 @@
+"""The signals of a run that figures and metrics share, matched by stamp.
+
+A run may be cut anywhere, so topics can differ in length or be absent; everything here then gives
+what is there, down to empty arrays.
+"""
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fpt_ros import registry
+from fpt_ros.errors import BadInput
+from fpt_ros.loop.run import Array, Run
+from fpt_ros.messages.frames import SECOND
+from fpt_ros.parameters import Value
+from fpt_ros.plants import Plant
+
+
+@dataclass(frozen=True)
+class Motion:
+    """Nominal and realised motion of one controlled coordinate, (N,) each.
+
+    Attributes:
+        time: since the run's first stamp [s].
+        nominal, position: in the plant's unit.
+        nominal_velocity, velocity: in the plant's unit per second.
+    """
+
+    time: Array
+    nominal: Array
+    position: Array
+    nominal_velocity: Array
+    velocity: Array
+
+    @property
+    def error(self) -> Array:
+        """Tracking error, nominal minus realised; NaN where the coordinate was not controlled."""
+        return self.nominal - self.position
+
+
+def parameter(run: Run, node: str, name: str) -> Value | None:
+    """A node's parameter; ``None`` where the run does not hold it."""
+    return run.parameters.get(node, {}).get(name)
+
+
+def parameter_number(run: Run, node: str, name: str) -> float | None:
+    """A node's parameter as a number; ``None`` where it is absent or none."""
+    value = parameter(run, node, name)
+    return None if isinstance(value, bool) or not isinstance(value, int | float) else float(value)
+
+
+def settle_time(run: Run) -> float:
+    """From here on the settled error counts [s since the first stamp]."""
+    return parameter_number(run, "recorder", "settle_time") or 0.0
+
+
+def adaptive(run: Run) -> bool:
+    """Whether anything adapts: a transformation that deforms, or a tuner in the loop."""
+    deforms = parameter(run, "fpt_deformer", "transformation") not in (None, "none")
+    return deforms or parameter(run, "parameter_tuner", "method") not in (None, "none")
+
+
+def origin(run: Run) -> int:
+    """First stamp of the run [ns]."""
+    stamps = [int(series.stamps[0]) for series in run.topics.values() if len(series.stamps)]
+    return min(stamps, default=0)
+
+
+def seconds(run: Run, stamps: NDArray[np.int64]) -> Array:
+    """(N,) stamps as times since the run's first stamp [s]."""
+    return (stamps - origin(run)) / SECOND
+
+
+def settled(run: Run, time: Array) -> NDArray[np.bool_]:
+    """(N,) whether ``time`` [s] is settled, exact where both are whole nanoseconds."""
+    return np.round(time * SECOND) >= round(settle_time(run) * SECOND)
+
+
+def controlled(run: Run) -> tuple[str, ...]:
+    """Coordinates that are controlled at some time, in the order of ``desired``."""
+    return run.topics["desired"].names if "desired" in run.topics else ()
+
+
+def uncontrolled(run: Run) -> tuple[str, ...]:
+    """Coordinates that are measured and never controlled."""
+    names = run.topics["joint_states"].names if "joint_states" in run.topics else ()
+    return tuple(name for name in names if name not in controlled(run))
+
+
+def topic(run: Run, name: str, vector: str, column: str) -> tuple[Array, Array]:
+    """Times [s] and numbers of one column of a topic, (N,) each; empty where it is absent."""
+    series = run.topics.get(name)
+    if series is None or column not in series.names:
+        return np.empty(0), np.empty(0)
+    return seconds(run, series.stamps), series.column(vector, column)
+
+
+def motion(run: Run, coordinate: str) -> Motion:
+    """Nominal and realised motion of a coordinate at the stamps that have both."""
+    desired, measured = run.topics.get("desired"), run.topics.get("joint_states")
+    if desired is None or measured is None:
+        return Motion(*[np.empty(0)] * 5)
+    if coordinate not in desired.names or coordinate not in measured.names:
+        return Motion(*[np.empty(0)] * 5)
+    stamps, i, j = np.intersect1d(desired.stamps, measured.stamps, return_indices=True)
+    return Motion(
+        seconds(run, stamps),
+        desired.column("positions", coordinate)[i],
+        measured.column("position", coordinate)[j],
+        desired.column("velocities", coordinate)[i],
+        measured.column("velocity", coordinate)[j],
+    )
+
+
+def realised_response(run: Run, coordinate: str) -> tuple[Array, Array]:
+    """Times [s] and responses of the plant to r_k, (N-1,) each.
+
+    The estimate of cycle k+1 holds the response to the command of cycle k: it is given at t_k, so
+    that it lies beside the desired and the deformed response that caused it.
+    """
+    time, response = topic(run, "state_estimate", "accelerations", coordinate)
+    return time[:-1], response[1:]
+
+
+def period(motions: Iterable[Motion]) -> float | None:
+    """Longest period of the nominal motions [s], from where they cross their middle.
+
+    ``None`` where none of them crosses it twice.
+    """
+    found = []
+    for one in motions:
+        known = np.isfinite(one.nominal)
+        time, nominal = one.time[known], one.nominal[known]
+        if len(nominal) < 3 or np.ptp(nominal) == 0.0:
+            continue
+        above = nominal > (nominal.max() + nominal.min()) / 2
+        crossings = time[1:][above[1:] != above[:-1]]
+        if len(crossings) >= 2:
+            found.append(2.0 * float(np.mean(np.diff(crossings))))
+    return max(found, default=None)
+
+
+def plant_of(run: Run) -> Plant | None:
+    """The run's plant; ``None`` where it is not installed here."""
+    try:
+        return registry.plant(str(parameter(run, "plant_simulator", "plant")))
+    except BadInput:
+        return None
+
+
+def unit(run: Run, coordinate: str) -> str:
+    """Unit of a coordinate's position; empty where it has none or is not known."""
+    plant = plant_of(run)
+    if plant is None or coordinate not in plant.coordinates:
+        return ""
+    return plant.units[plant.coordinates.index(coordinate)]
+
+
+def effort_unit(run: Run, coordinate: str) -> str:
+    """Unit of a coordinate's effort; empty where it has none or is not known."""
+    plant = plant_of(run)
+    if plant is None or coordinate not in plant.coordinates:
+        return ""
+    return plant.effort_units[plant.coordinates.index(coordinate)]
+
+
+def exact_coefficients(run: Run) -> dict[str, float]:
+    """The model's coefficients as they would be with the plant's exact parameters, by name.
+
+    Empty where the model has parameters that the plant does not know (an affine model, say): then
+    there are no exact values.
+    """
+    try:
+        model = registry.model(str(parameter(run, "fpt_deformer", "model")))
+    except BadInput:
+        return {}
+    exact = [parameter_number(run, "plant_simulator", f"exact.{p.name}") for p in model.parameters]
+    known = [value for value in exact if value is not None]
+    if not known or len(known) < len(exact):
+        return {}
+    return dict(zip(model.coefficient_names, model.coefficients(known), strict=True))

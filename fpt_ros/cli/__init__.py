@@ -1,0 +1,1 @@
+"""The command ``fpt``, one file a command."""

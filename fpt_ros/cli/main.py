@@ -1,0 +1,71 @@
+"""The command line: errors in one line, exit status 2 for bad input, 1 for a failed run, 130 Ctrl-C."""
+
+import os
+import sys
+from typing import Any
+
+import typer
+
+from fpt_ros.cli import demo, info, listing, report, run, simulate
+from fpt_ros.errors import FptError
+
+INTERRUPTED = 130
+
+app = typer.Typer(
+    name="fpt",
+    help="Adaptive control by Fixed Point Transformations: run it, record it, look at it.",
+    no_args_is_help=True,
+    add_completion=False,
+    rich_markup_mode=None,
+    context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 100},
+)
+app.command("list", help=listing.list_experiments.__doc__)(listing.list_experiments)
+app.command("simulate", help=simulate.simulate.__doc__)(simulate.simulate)
+app.command("run", help=run.run.__doc__)(run.run)
+app.command("report", help=report.report.__doc__)(report.report)
+app.command("info", help=info.info.__doc__)(info.info)
+app.command("demo", help=demo.demo.__doc__)(demo.demo)
+
+
+@app.callback(invoke_without_command=True)
+def _root(version: bool = typer.Option(False, "--version", help="Print the version.")) -> None:
+    if version:
+        from fpt_ros import __version__
+
+        print(__version__)
+        raise typer.Exit
+
+
+def main() -> None:
+    """Console script."""
+    sys.exit(_main(sys.argv[1:]))
+
+
+def _main(arguments: list[str]) -> int:
+    command = typer.main.get_command(app)
+    try:
+        status: Any = command.main(args=arguments, prog_name="fpt", standalone_mode=False)
+    except FptError as error:
+        return _complain(str(error), error.exit_status)
+    except (KeyboardInterrupt, typer.Abort):
+        return _complain("interrupted", INTERRUPTED)
+    except BrokenPipeError:  # the reader of our output has gone, as with `| head`
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        return 0
+    except Exception as error:
+        usage = getattr(error, "format_message", None)  # click's usage errors
+        if usage is None:
+            raise
+        context = getattr(error, "ctx", None)
+        help_command = f"{context.command_path if context is not None else 'fpt'} --help"
+        return _complain(f"{usage()} ({help_command} shows what is valid)", 2)
+    return status if isinstance(status, int) else 0
+
+
+def _complain(message: str, status: int) -> int:
+    print(f"fpt: {message}", file=sys.stderr)
+    return status
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,114 @@
+"""``fpt run``."""
+
+import tempfile
+from pathlib import Path
+from time import perf_counter
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from fpt_ros.cli.options import (
+    Duration,
+    Json,
+    Name,
+    Record,
+    Seed,
+    Settings,
+    Variant,
+    check_new_directory,
+    experiment_of,
+)
+
+if TYPE_CHECKING:
+    from fpt_ros.loop.experiment import Experiment
+
+Composed = Annotated[bool, typer.Option("--composed", help="The five nodes in one process.")]
+Realtime = Annotated[bool, typer.Option("--realtime", help="On the wall clock, not in lockstep.")]
+Namespace = Annotated[str, typer.Option(metavar="NS", help="ROS namespace of all nodes.")]
+
+
+def run(
+    name: Name,
+    variant: Variant = "adaptive",
+    set_: Settings = None,
+    duration: Duration = None,
+    seed: Seed = None,
+    record: Record = None,
+    composed: Composed = False,
+    realtime: Realtime = False,
+    namespace: Namespace = "",
+    json: Json = False,
+) -> None:
+    """Run an experiment as a graph of ROS 2 nodes over DDS, a process each.
+
+    Example: fpt run tora --record /tmp/tora && fpt report /tmp/tora
+    """
+    from fpt_ros.cli.output import print_result
+
+    experiment = experiment_of(name, variant, set_, duration, seed)
+    _check_namespace(namespace)
+    if record is not None:
+        check_new_directory(record)
+    with tempfile.TemporaryDirectory(prefix="fpt_ros-") as folder:
+        bag = record or Path(folder) / "recording"
+        result, failure = run_recorded(experiment, bag, composed, realtime, namespace)
+    if result is not None:
+        print_result({**result, "bag": str(record) if record is not None else None}, json)
+    if failure is not None:
+        raise failure
+
+
+def run_recorded(
+    experiment: "Experiment",
+    bag: Path,
+    composed: bool = False,
+    realtime: bool = False,
+    namespace: str = "",
+) -> tuple[dict[str, Any] | None, Exception | None]:
+    """Run the graph and read its recording.
+
+    Returns:
+        The result so far as the recording goes (None: nothing was recorded), and what went wrong.
+    """
+    from fpt_ros.analysis.metrics import summary
+    from fpt_ros.bags.reader import read_run
+    from fpt_ros.cli.output import progress_bar
+    from fpt_ros.errors import BadInput, FptError
+    from fpt_ros.nodes import graph
+
+    pace: list[tuple[float, int]] = []
+    failure: FptError | None = None
+    total = experiment.loop().plant.cycles
+    started = perf_counter()
+    with progress_bar(f"{experiment.name} {experiment.variant}", total) as show:
+
+        def progress(done: int) -> None:
+            if done:
+                pace.append((perf_counter(), done))
+            show(done)
+
+        try:
+            graph.run(experiment, bag, composed, realtime, namespace, progress)
+        except FptError as error:
+            failure = error
+    wall = perf_counter() - started
+    try:
+        result = summary(read_run(bag))
+    except BadInput:
+        return None, failure
+    rate = None
+    if len(pace) > 1 and pace[-1][0] > pace[0][0]:
+        rate = (pace[-1][1] - pace[0][1]) / (pace[-1][0] - pace[0][0])
+    return {**result, "wall_time": wall, "cycles_per_second": rate, "bag": str(bag)}, failure
+
+
+def _check_namespace(namespace: str) -> None:
+    import re
+
+    from fpt_ros.errors import BadInput
+
+    if namespace and not re.fullmatch(r"/?[A-Za-z_]\w*(/[A-Za-z_]\w*)*", namespace):
+        raise BadInput(
+            f"--namespace '{namespace}' is not a ROS namespace: words of letters, digits and _, "
+            "joined by /"
+        )

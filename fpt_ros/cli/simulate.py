@@ -1,0 +1,67 @@
+"""``fpt simulate``."""
+
+from time import perf_counter
+
+from fpt_ros.cli.options import (
+    Duration,
+    Json,
+    Name,
+    Record,
+    Seed,
+    Settings,
+    Variant,
+    check_new_directory,
+    experiment_of,
+)
+
+
+def simulate(
+    name: Name,
+    variant: Variant = "adaptive",
+    set_: Settings = None,
+    duration: Duration = None,
+    seed: Seed = None,
+    record: Record = None,
+    json: Json = False,
+) -> None:
+    """Run an experiment in process, without ROS: the same numbers as fpt run, much faster.
+
+    Example: fpt simulate tora --variant strong --set fpt_deformer.A=-2 --record /tmp/tora
+    """
+    experiment = experiment_of(name, variant, set_, duration, seed)
+    if record is not None:
+        check_new_directory(record)
+    from fpt_ros.analysis.metrics import summary
+    from fpt_ros.bags.recording import EngineRecording
+    from fpt_ros.cli.output import print_result, progress_bar
+    from fpt_ros.errors import RunFailed
+    from fpt_ros.loop import engine
+    from fpt_ros.loop.run import Collector, Run, describe
+
+    collector = Collector()
+    loop = experiment.loop()
+    failure: RunFailed | None = None
+    recording = EngineRecording(record, experiment, collector)
+    started = perf_counter()
+    with recording, progress_bar(f"{experiment.name} {variant}", loop.plant.cycles) as progress:
+        try:
+            engine.run(loop, recording.observe, progress)
+        except RunFailed as error:
+            failure = error
+            recording.reason = str(error)
+    wall = perf_counter() - started
+    info = describe(experiment, "in_process", str(failure or ""))
+    result = summary(Run(info, experiment.nodes, collector.topics()))
+    cycles = result["cycles"]
+    assert isinstance(cycles, int)
+    print_result(
+        {
+            **result,
+            "wall_time": wall,
+            "cycles_per_second": cycles / wall,
+            "bag": str(record) if record is not None else None,
+        },
+        json,
+    )
+    if failure is not None:
+        raise failure

@@ -1,0 +1,25 @@
+"""All five stages in one process, on one wait set: for when latency counts more than isolation."""
+
+from fpt_ros.loop.denoiser import Denoiser
+from fpt_ros.loop.parameter_tuner import ParameterTuner
+from fpt_ros.loop.trajectory_generator import TrajectoryGenerator
+from fpt_ros.nodes.fpt_deformer import DeformerNode
+from fpt_ros.nodes.plant_node import PlantNode
+from fpt_ros.nodes.process import run_process
+from fpt_ros.nodes.stage_node import StageNode
+
+
+def main() -> None:
+    """Run all nodes until the plant has finished."""
+    factories = [
+        DeformerNode,
+        lambda: StageNode(ParameterTuner),
+        lambda: StageNode(TrajectoryGenerator),
+        lambda: StageNode(Denoiser),
+        PlantNode,
+    ]
+    run_process(factories, "composed", __doc__ or "")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,148 @@
+"""The plant simulator's node: it owns the clock of the loop.
+
+Lockstep: the next cycle begins when the command of this one has come, so the outcome does not
+depend on the machine's speed. Real time: the cycle ends when the wall clock says so, and the newest
+command acts, or the safe effort where it is older than ``command_timeout``.
+"""
+
+from time import monotonic, time_ns
+
+from fpt_ros.errors import RunFailed
+from fpt_ros.loop.plant_simulator import PlantSimulator
+from fpt_ros.messages.cdr import Codec, MalformedMessage
+from fpt_ros.messages.frames import SECOND, Command
+from fpt_ros.messages.topics import COMMAND, DEPTH, JOINT_STATES
+from fpt_ros.nodes.process import report_progress
+from fpt_ros.nodes.qos import LATEST
+from fpt_ros.nodes.recorded_until import RECORDED_UNTIL, TIME, decode_time
+from fpt_ros.nodes.stage_node import ParameterisedNode
+
+WINDOW = DEPTH * 3 // 4
+"""Cycles that the loop may be ahead of the recorder: less than the history that publishers keep."""
+
+
+class PlantNode(ParameterisedNode):
+    """Plant simulator in lockstep or in real time."""
+
+    def __init__(self) -> None:
+        super().__init__(PlantSimulator)
+        stage: PlantSimulator = self.stage
+        self._realtime = stage.values["realtime"] is True
+        self._awaits_recorder = stage.values["await_recorder"] is True
+        self._decode = Codec(COMMAND).decode
+        self._cycle = 0
+        self._origin = 0
+        self._recorded = -1
+        self._stamp = -1
+        self._command: Command | None = None
+        self._held_back = False
+        self._sent_at = 0.0
+        self._next_tick = 0.0
+        self._misses = 0
+        self._latencies: list[float] = []
+        self.subscribe_raw(COMMAND.name, COMMAND.type, LATEST, self._on_command)
+        if self._awaits_recorder:
+            self.subscribe_raw(RECORDED_UNTIL, TIME, 1, self._on_recorded)
+
+    def begin(self) -> None:
+        """Publish cycle 0; it waits, latched, for whoever is not there yet."""
+        self._origin = time_ns() if self._realtime else 0
+        self._publish_cycle()
+
+    def _publish_cycle(self) -> None:
+        self._stamp = self._origin + self._cycle * self.stage.cycle_time
+        self._sent_at = monotonic()
+        self.send(self.stage.measure(self._stamp, self._cycle))
+
+    def _on_command(self, data: bytes) -> None:
+        try:
+            command = self._decode(data)
+        except MalformedMessage as error:
+            self.get_logger().error(f"ignored: {error}", once=True)
+            return
+        assert isinstance(command, Command)
+        if command.stamp != self._stamp or command is self._command:
+            return
+        if self._realtime:
+            self._latencies.append(monotonic() - self._sent_at)
+            if self._cycle == 0 and self._command is None:  # cycle 0 has gone around: start
+                self._next_tick = self.deadline = monotonic() + self.stage.dt
+        repeated = self._command is not None and self._command.stamp == command.stamp
+        self._command = command
+        if not self._realtime and not repeated:
+            self._end_cycle(command)
+
+    def on_deadline(self) -> None:
+        """Real time: the cycle is over, with or without its command."""
+        command = self._command
+        if self._held_back or command is None:
+            return
+        late = self._stamp - command.stamp
+        if late:
+            self._misses += 1
+        if late >= self.stage.timeout:
+            command = self.stage.safe_command(self._stamp)
+        self._next_tick += self.stage.dt
+        self.deadline = self._next_tick
+        self._end_cycle(command)
+
+    def _end_cycle(self, command: Command) -> None:
+        if self._pending:
+            self.apply_changes(self._stamp)
+        self.stage.advance(command, self._stamp - self._origin)
+        self._cycle += 1
+        if self._cycle == self.stage.cycles:
+            self.deadline = None
+            report_progress(self._cycle)
+            self._held_back = self._awaits_recorder and self._recorded < self._stamp
+            self.finished = not self._held_back
+        elif self._behind():
+            self._held_back = True
+        else:
+            self._publish_cycle()
+
+    def _behind(self) -> bool:
+        """Whether the recorder has to catch up first."""
+        if not self._awaits_recorder or self._realtime:
+            return False
+        return self._recorded < self._stamp - WINDOW * self.stage.cycle_time
+
+    def _on_recorded(self, data: bytes) -> None:
+        self._recorded = max(self._recorded, decode_time(data))
+        if not self._held_back:
+            return
+        if self._cycle == self.stage.cycles:
+            self.finished = self._recorded >= self._stamp
+        elif not self._behind():
+            self._held_back = False
+            self._publish_cycle()
+
+    def housekeeping(self) -> None:
+        """Progress; and two plants on one topic are one too many."""
+        super().housekeeping()
+        report_progress(self._cycle)
+        if self.count_publishers(JOINT_STATES.name) > 1:
+            raise RunFailed(
+                f"another node publishes {self.resolve_topic_name(JOINT_STATES.name)} in this ROS "
+                "domain: use another ROS_DOMAIN_ID or --namespace"
+            )
+
+    def health(self) -> tuple[str, dict[str, object]]:
+        """State of the run; in real time misses and latencies from sensor to command [ms]."""
+        t = (self._stamp - self._origin) / SECOND
+        values: dict[str, object] = {"time [s]": f"{t:.3f}"}
+        if self._realtime and self._latencies:
+            ordered = sorted(self._latencies)
+            values["deadline misses"] = self._misses
+            values["latency median [ms]"] = f"{1e3 * ordered[len(ordered) // 2]:.3f}"
+            values["latency p99 [ms]"] = f"{1e3 * ordered[int(0.99 * len(ordered))]:.3f}"
+            values["latency max [ms]"] = f"{1e3 * ordered[-1]:.3f}"
+        mode = "real time" if self._realtime else "lockstep"
+        return f"cycle {self._cycle} of {self.stage.cycles}, {mode}", values
+
+
+def main() -> None:
+    """Console script."""
+    from fpt_ros.nodes.process import run_process
+
+    run_process([PlantNode], PlantSimulator.name, PlantSimulator.__doc__ or "")

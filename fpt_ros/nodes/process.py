@@ -1,0 +1,87 @@
+"""A process that runs nodes: start, signals, exit status."""
+
+import os
+import signal
+import sys
+from collections.abc import Callable, Sequence
+
+from fpt_ros.errors import BadInput, FptError
+from fpt_ros.nodes.loop_node import LoopNode
+from fpt_ros.nodes.spin import spin
+
+INTERRUPTED = 130
+
+
+class _Stop:
+    """Set by SIGINT and SIGTERM; the spinner looks at it a few dozen times a second."""
+
+    signal = 0
+
+    def __init__(self) -> None:
+        for number in (signal.SIGINT, signal.SIGTERM):
+            signal.signal(number, self._on_signal)
+
+    def _on_signal(self, number: int, frame: object) -> None:
+        self.signal = number
+
+
+def run_process(factories: Sequence[Callable[[], LoopNode]], name: str, about: str) -> None:
+    """Run nodes until they finish, a signal comes, or one of them fails; then exit.
+
+    Exit status: 0 finished or SIGTERM, 130 SIGINT, 1 a run that failed, 2 bad parameters; the last
+    two with one line on standard error.
+    """
+    if "--help" in sys.argv[1:] or "-h" in sys.argv[1:]:
+        print(_usage(name, about))
+        sys.exit(0)
+    stop = _Stop()
+    try:
+        _run(factories, stop)
+    except FptError as error:
+        print(f"{name}: {error}", file=sys.stderr, flush=True)
+        sys.exit(error.exit_status)
+    sys.exit(INTERRUPTED if stop.signal == signal.SIGINT else 0)
+
+
+def _run(factories: Sequence[Callable[[], LoopNode]], stop: _Stop) -> None:
+    import rclpy
+    from rclpy.context import Context
+    from rclpy.signals import SignalHandlerOptions
+    from rclpy.utilities import get_default_context
+
+    try:
+        rclpy.init(args=sys.argv, signal_handler_options=SignalHandlerOptions.NO)
+    except rclpy._rclpy_pybind11.RCLError as error:
+        raise BadInput(f"ROS arguments or parameter file: {str(error).splitlines()[0]}") from error
+    context: Context = get_default_context()
+    nodes: list[LoopNode] = []
+    try:
+        for factory in factories:
+            nodes.append(factory())
+        spin(nodes, lambda: bool(stop.signal) or not context.ok(), context)
+    finally:
+        for node in nodes:
+            node.close()
+        for node in nodes:
+            node.destroy_node()
+        rclpy.try_shutdown()
+
+
+def _usage(name: str, about: str) -> str:
+    return f"""{about.strip()}
+
+usage: ros2 run fpt_ros {name} --ros-args --params-file config/tora.yaml
+       {name} --ros-args --params-file config/tora.yaml [-p PARAM:=VALUE] [-r __ns:=/NAMESPACE]
+
+parameters: ros2 param list /{name}; ros2 param describe /{name} PARAM
+the whole graph at once: fpt run tora"""
+
+
+def report_progress(cycle: int) -> None:
+    """Tell the process that started the graph how many cycles are done."""
+    descriptor = os.environ.get("FPT_PROGRESS_FD")
+    if descriptor:
+        try:
+            os.write(int(descriptor), f"{cycle}\n".encode())
+        except OSError:
+            os.environ.pop("FPT_PROGRESS_FD")

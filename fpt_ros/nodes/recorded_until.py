@@ -1,0 +1,28 @@
+"""How the recorder tells the plant how far it has come: a stamp on a topic of its own.
+
+The recorder is not in the control loop, and publishers keep only the last messages. So the plant
+does not run more cycles ahead of the recorder than they keep: then nothing can be lost, neither at
+the start, while DDS discovers, nor under load.
+"""
+
+import struct
+
+from fpt_ros.messages.frames import SECOND
+
+RECORDED_UNTIL = "recorded_until"
+TIME = "builtin_interfaces/msg/Time"
+
+_LAYOUT = struct.Struct("<4xiI")
+
+
+def encode_time(stamp: int) -> bytes:
+    """CDR of a builtin_interfaces/Time, from [ns]."""
+    data = bytearray(_LAYOUT.pack(*divmod(stamp, SECOND)))
+    data[1] = 1
+    return bytes(data)
+
+
+def decode_time(data: bytes) -> int:
+    """Stamp [ns] of a builtin_interfaces/Time."""
+    seconds, nanoseconds = _LAYOUT.unpack_from(data)
+    return int(seconds) * SECOND + int(nanoseconds)

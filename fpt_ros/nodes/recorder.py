@@ -1,0 +1,163 @@
+"""The recorder: every message of every topic, as the bytes that came, into MCAP.
+
+It also tells the plant how far it has come (:mod:`fpt_ros.nodes.recorded_until`), and checks what it
+gets: message k of every loop topic has to carry the same stamp, or the recording is not complete.
+"""
+
+import os
+import struct
+import sys
+from array import array
+from collections.abc import Callable
+from datetime import datetime
+from pathlib import Path
+
+from fpt_ros import __version__
+from fpt_ros.bags.writer import BagWriter
+from fpt_ros.errors import RunFailed
+from fpt_ros.loop import description
+from fpt_ros.loop.experiment import complete
+from fpt_ros.loop.parameter_file import ParameterFile, read
+from fpt_ros.messages.frames import SECOND
+from fpt_ros.messages.topics import DEPTH, LOOP_TOPICS, TUNING
+from fpt_ros.nodes.loop_node import LoopNode, message_class
+from fpt_ros.nodes.qos import loop_qos
+from fpt_ros.nodes.recorded_until import RECORDED_UNTIL, TIME, encode_time
+from fpt_ros.nodes.ros_parameters import declare
+from fpt_ros.nodes.stage_node import CHANGES
+from fpt_ros.parameters import word
+
+ACKNOWLEDGE = 8
+"""Cycles between two messages to the plant."""
+
+SIDE_TOPICS = {
+    "/diagnostics": "diagnostic_msgs/msg/DiagnosticArray",
+    "/parameter_events": "rcl_interfaces/msg/ParameterEvent",
+    CHANGES: "rcl_interfaces/msg/ParameterEvent",
+}
+"""Recorded as they come; no cycle depends on them."""
+
+_STAMP = struct.Struct("<iI")
+
+
+class Recorder(LoopNode):
+    """Subscribes to every topic of the graph and writes a rosbag2 directory."""
+
+    def __init__(self) -> None:
+        super().__init__(description.NODE)
+        values = declare(self, description.parameters)
+        self._lockstep = values.get("realtime") is not True
+        experiment, variant = str(values.get("experiment", "run")), word(values, "variant")
+        directory = str(values.get("directory", "")) or (
+            f"{experiment}_{variant}_{datetime.now():%Y-%m-%d_%H-%M-%S}"
+        )
+        self._writer = BagWriter(
+            Path(directory),
+            complete(_parameter_files()),
+            {
+                "experiment": experiment,
+                "variant": variant,
+                "engine": "graph",
+                "version": __version__,
+                "clock": "lockstep" if self._lockstep else "realtime",
+            },
+        )
+        self._stamps = array("q")
+        self._counts: list[int] = []
+        self._acknowledged = 0
+        self._until = self.create_publisher(message_class(TIME), RECORDED_UNTIL, loop_qos(1))
+        for topic in LOOP_TOPICS:
+            if topic != TUNING or values.get("await_tuning") is True:
+                self._record_loop_topic(topic.name, topic.type)
+        for name, kind in SIDE_TOPICS.items():
+            self._record_side_topic(name, kind)
+
+    def _record_loop_topic(self, name: str, kind: str) -> None:
+        index = len(self._counts)
+        self._counts.append(0)
+        resolved = self.resolve_topic_name(name)
+        self._writer.add_topic(resolved, kind, depth=DEPTH)
+        self.subscribe_raw(name, kind, 4 * DEPTH, self._on_loop_message(index, resolved))
+
+    def _on_loop_message(self, index: int, name: str) -> Callable[[bytes], None]:
+        write, counts, stamps = self._writer.write, self._counts, self._stamps
+
+        def record(data: bytes) -> None:
+            seconds, nanoseconds = _STAMP.unpack_from(data, 4)
+            stamp = seconds * SECOND + nanoseconds
+            count = counts[index]
+            if self._lockstep:
+                if count == len(stamps):
+                    stamps.append(stamp)
+                elif stamps[count] != stamp:
+                    raise RunFailed(
+                        f"the recording is not complete: message {count} of {name} has the stamp "
+                        f"{stamp / SECOND:.9g} s, {stamps[count] / SECOND:.9g} s was due"
+                    )
+            elif not stamps or stamp > stamps[-1]:
+                stamps.append(stamp)
+            write(name, stamp, data)
+            counts[index] = count + 1
+            if min(counts) >= self._acknowledged + ACKNOWLEDGE:
+                self._acknowledge()
+
+        return record
+
+    def _acknowledge(self) -> None:
+        done = min(self._counts)
+        if done > self._acknowledged:
+            self._acknowledged = self.cycles_done = done
+            self._until.publish(encode_time(self._stamps[done - 1]))
+
+    def _record_side_topic(self, name: str, kind: str) -> None:
+        resolved = self.resolve_topic_name(name)
+        self._writer.add_topic(resolved, kind, depth=10, latched=False)
+
+        def record(data: bytes) -> None:
+            self._writer.write(resolved, self._stamps[-1] if self._stamps else 0, data)
+
+        self.create_subscription(message_class(kind), name, record, 100, raw=True)
+
+    def housekeeping(self) -> None:
+        """Acknowledge the last few cycles too."""
+        super().housekeeping()
+        self._acknowledge()
+
+    def close(self) -> None:
+        """Finish the file; say why, if the run did not end by itself."""
+        error = sys.exc_info()[1]
+        reason = _reason() or (str(error) if error is not None else "")
+        if not reason and len(set(self._counts)) > 1:
+            reason = "the recorder was stopped in the middle of a cycle"
+        self._writer.close(reason)
+
+
+def _reason() -> str:
+    """What the process that started the graph says about its end."""
+    descriptor = os.environ.get("FPT_REASON_FD")
+    if not descriptor:
+        return ""
+    try:
+        return os.read(int(descriptor), 65536).decode()
+    except OSError:
+        return ""
+
+
+def _parameter_files() -> ParameterFile:
+    """The parameter files of the command line: those of the whole graph, the recorder's own too."""
+    merged = ParameterFile()
+    for flag, path in zip(sys.argv, sys.argv[1:], strict=False):
+        if flag == "--params-file":
+            merged = merged.overlay(read(Path(path)))
+    return merged
+
+
+def main() -> None:
+    """Console script."""
+    from fpt_ros.nodes.process import run_process
+
+    run_process([Recorder], description.NODE, __doc__ or "")
+
+
+if __name__ == "__main__":
+    main()

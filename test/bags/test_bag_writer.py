@@ -1,0 +1,318 @@
+"""What BagWriter puts on disk, by its own account and by that of other programs' readers."""
+
+import contextlib
+import os
+import resource
+import signal
+import subprocess
+import sys
+from collections import Counter
+from collections.abc import Iterator
+from pathlib import Path
+
+import numpy as np
+import pytest
+from conftest import INFO, Recorded
+from mcap.reader import make_reader
+from mcap_ros2.reader import read_ros2_messages
+from rosbags.highlevel import AnyReader
+from rosbags.typesys import Stores, get_typestore
+from ruamel.yaml import YAML
+
+from fpt_ros.bags import reader
+from fpt_ros.bags.schemas import offered_qos, schema, yaml_text
+from fpt_ros.bags.writer import BagWriter
+from fpt_ros.errors import BadInput, RunFailed
+from fpt_ros.loop import experiment
+from fpt_ros.messages.cdr import Codec
+from fpt_ros.messages.frames import JointStates
+from fpt_ros.messages.topics import BY_NAME, JOINT_STATE, JOINT_STATES, JOINT_TRAJECTORY, Topic
+
+MESSAGE = Codec(JOINT_STATES).encode(JointStates(0, ("a",), (1.0,), (2.0,), (3.0,)))
+
+
+def fields(topic: Topic, message: object) -> dict[str, list[float]]:
+    """The arrays of a deserialised message, of any library."""
+    source = message.points[0] if topic.type == JOINT_TRAJECTORY else message  # type: ignore[attr-defined]
+    return {name: list(getattr(source, name)) for name in topic.fields}
+
+
+def names(topic: Topic, message: object) -> tuple[str, ...]:
+    return tuple(message.joint_names if topic.type == JOINT_TRAJECTORY else message.name)  # type: ignore[attr-defined]
+
+
+def check(recorded: Recorded, seen: Iterator[tuple[str, int, int, object]]) -> None:
+    """(topic, log time, seconds and nanoseconds in the header, message) of all messages."""
+    expected = {name: iter(recorded.of(topic)) for name, topic in BY_NAME.items()}
+    counts = Counter[str]()
+    for name, log_time, stamp, message in seen:
+        topic = BY_NAME[name.removeprefix("/")]
+        frame = next(expected[topic.name])
+        counts[topic.name] += 1
+        assert log_time == stamp == frame.stamp
+        assert names(topic, message) == frame.names
+        for got, vector in zip(fields(topic, message).values(), frame[2:], strict=True):
+            assert np.array_equal(got, vector, equal_nan=True)
+    assert counts == Counter(topic.name for topic, _ in recorded.frames)
+
+
+def test_rosbags_reads_it(recorded: Recorded) -> None:
+    store = get_typestore(Stores.ROS2_JAZZY)
+    with AnyReader([recorded.directory], default_typestore=store) as bag:
+        assert bag.message_count == len(recorded.frames)
+        assert bag.duration == 999_000_001
+
+        def seen() -> Iterator[tuple[str, int, int, object]]:
+            for connection, time, data in bag.messages():
+                message = bag.deserialize(data, connection.msgtype)
+                stamp = message.header.stamp
+                yield connection.topic, time, stamp.sec * 10**9 + stamp.nanosec, message
+
+        check(recorded, seen())
+
+
+def test_mcap_ros2_reads_it(recorded: Recorded) -> None:
+    def seen() -> Iterator[tuple[str, int, int, object]]:
+        for item in read_ros2_messages(str(recorded.file)):
+            stamp = item.ros_msg.header.stamp
+            nanoseconds = stamp.sec * 10**9 + stamp.nanosec
+            yield item.channel.topic, item.log_time_ns, nanoseconds, item.ros_msg
+
+    check(recorded, seen())
+
+
+def test_file_is_in_order_by_mcap(recorded: Recorded) -> None:
+    with recorded.file.open("rb") as stream:
+        bag = make_reader(stream, validate_crcs=True)
+        summary = bag.get_summary()
+        assert summary is not None
+        assert summary.statistics is not None
+        assert bag.get_header().profile == "ros2"
+        assert summary.statistics.message_count == len(recorded.frames)
+        assert summary.statistics.message_end_time == 999_000_000
+        sequences: dict[str, int] = {}
+        for about, channel, message in bag.iter_messages():
+            assert about is not None
+            assert about.data.decode() == schema(about.name).text
+            assert message.sequence == sequences.get(channel.topic, 0)
+            assert message.publish_time == message.log_time
+            sequences[channel.topic] = message.sequence + 1
+        (attachment,) = bag.iter_attachments()
+        first, last = bag.iter_metadata()
+    # the parameters stand before the first chunk
+    assert summary.attachment_indexes[0].offset < summary.chunk_indexes[0].chunk_start_offset
+    assert (first.name, first.metadata) == ("fpt_ros", INFO)
+    assert last.name == "fpt_ros.end"
+    assert last.metadata["complete"] == "true"
+    assert last.metadata["messages /command"] == str(sequences["/command"])
+    assert attachment.media_type == "application/yaml"
+
+
+def test_attached_parameters_run_again(recorded: Recorded, tmp_path: Path) -> None:
+    with recorded.file.open("rb") as stream:
+        (attachment,) = make_reader(stream).iter_attachments()
+    path = tmp_path / "again.yaml"
+    path.write_bytes(attachment.data)
+    assert experiment.load(str(path)).nodes == {
+        **recorded.experiment.nodes,
+        "recorder": {**recorded.experiment.about, "experiment": "again"},
+    }
+
+
+def test_metadata_yaml(recorded: Recorded) -> None:
+    content = YAML(typ="safe").load(recorded.directory / "metadata.yaml")
+    about = content["rosbag2_bagfile_information"]
+    assert about["version"] == 9
+    assert about["ros_distro"] == "jazzy"
+    assert about["relative_file_paths"] == ["tora_0.mcap"]
+    assert about["duration"] == {"nanoseconds": 999_000_000}
+    assert about["message_count"] == len(recorded.frames)
+    assert about["custom_data"] == {**INFO, "complete": "true", "reason": ""}
+    (file,) = about["files"]
+    assert file["path"] == "tora_0.mcap"
+    assert file["message_count"] == len(recorded.frames)
+    for topic in about["topics_with_message_count"]:
+        metadata = topic["topic_metadata"]
+        assert metadata["offered_qos_profiles"] == offered_qos(metadata["name"])
+        assert metadata["type_description_hash"] == schema(metadata["type"]).hash
+    assert sorted(path.name for path in recorded.directory.iterdir()) == [
+        "metadata.yaml",
+        "tora_0.mcap",
+    ]
+
+
+def test_qos_is_the_same_in_both_places(recorded: Recorded) -> None:
+    with recorded.file.open("rb") as stream:
+        summary = make_reader(stream).get_summary()
+    assert summary is not None
+    for channel in summary.channels.values():
+        assert channel.metadata["offered_qos_profiles"] == yaml_text(offered_qos(channel.topic))
+
+
+def test_hashes_are_those_of_ros() -> None:
+    # from `ros2 topic info --verbose`
+    expected = "RIHS01_a13ee3a330e346c9d87b5aa18d24e11690752bd33a0350f11c5882bc9179260e"
+    assert schema(JOINT_STATE).hash == expected
+
+
+def test_other_topics_are_volatile() -> None:
+    (loop,) = offered_qos("/robot1/joint_states")
+    (diagnostics,) = offered_qos("/diagnostics")
+    assert (loop["durability"], loop["depth"]) == ("transient_local", 64)
+    assert (diagnostics["durability"], diagnostics["depth"]) == ("volatile", 10)
+    assert offered_qos("/parameter_events", 1000)[0]["depth"] == 1000
+
+
+def test_unknown_type_is_refused(tmp_path: Path) -> None:
+    with (
+        pytest.raises(BadInput, match="cannot record 'my_msgs/msg/Mine': it has to be"),
+        BagWriter(tmp_path / "bag", {}, {}) as bag,
+    ):
+        bag.write("/mine", "my_msgs/msg/Mine", 0, b"")
+
+
+@pytest.mark.parametrize("what", ["directory", "file", "dangling"])
+def test_does_not_overwrite(tmp_path: Path, what: str) -> None:
+    path = tmp_path / "bag"
+    if what == "directory":
+        path.mkdir()
+    elif what == "file":
+        path.touch()
+    else:
+        path.symlink_to(tmp_path / "nowhere")
+    with pytest.raises(BadInput, match="exists: recordings do not overwrite") as error:
+        BagWriter(path, {}, {})
+    assert "\n" not in str(error.value)
+
+
+def test_parent_that_cannot_be_written(tmp_path: Path) -> None:
+    (tmp_path / "file").touch()
+    with pytest.raises(BadInput, match="cannot be created: Not a directory"):
+        BagWriter(tmp_path / "file" / "bag", {}, {})
+    with pytest.raises(BadInput, match="cannot be created: "):
+        BagWriter(Path("/proc/bag"), {}, {})
+
+
+def test_name_too_long_leaves_nothing(tmp_path: Path) -> None:
+    with pytest.raises(BadInput, match="cannot be created: File name too long"):
+        BagWriter(tmp_path / ("n" * 255), {}, {})
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_closing_twice_and_writing_after(tmp_path: Path) -> None:
+    bag = BagWriter(tmp_path / "bag", {}, {})
+    bag.close("first")
+    bag.close("second")
+    assert reader.info(tmp_path / "bag")["reason"] == "first"
+    with pytest.raises(RunFailed, match="is closed"):
+        bag.write("/joint_states", JOINT_STATE, 0, MESSAGE)
+
+
+@pytest.mark.parametrize(
+    ("error", "reason"),
+    [(RunFailed("it broke"), "it broke"), (KeyboardInterrupt(), "interrupted")],
+)
+def test_exception_is_the_reason(tmp_path: Path, error: BaseException, reason: str) -> None:
+    def fail() -> None:
+        with BagWriter(tmp_path / "bag", {}, {}) as bag:
+            bag.write("/joint_states", JOINT_STATE, 5, MESSAGE)
+            raise error
+
+    with pytest.raises(type(error)):
+        fail()
+    run = reader.read_run(tmp_path / "bag")
+    assert (run.info["complete"], run.info["reason"]) == ("false", reason)
+    assert list(run.topics["joint_states"].stamps) == [0]
+
+
+@contextlib.contextmanager
+def file_size_limit(size: int) -> Iterator[None]:
+    """No file may grow beyond ``size`` bytes: what a full disk does, for this process."""
+    old = resource.getrlimit(resource.RLIMIT_FSIZE)
+    handler = signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
+    resource.setrlimit(resource.RLIMIT_FSIZE, (size, old[1]))
+    try:
+        yield
+    finally:
+        resource.setrlimit(resource.RLIMIT_FSIZE, old)
+        signal.signal(signal.SIGXFSZ, handler)
+
+
+def test_disk_full_is_one_line_and_leaves_whole_records(tmp_path: Path) -> None:
+    written = 0
+    bag = BagWriter(tmp_path / "bag", {}, {})
+
+    def fill() -> None:
+        nonlocal written
+        for stamp, value in enumerate(np.random.default_rng(0).random(100_000)):
+            frame = JointStates(stamp, ("a",), (float(value),), (), ())
+            bag.write("/joint_states", JOINT_STATE, stamp, codec.encode(frame))
+            written += 1
+
+    codec = Codec(JOINT_STATES)
+    with file_size_limit(400_000), pytest.raises(RunFailed, match="cannot be written: ") as error:
+        fill()
+    assert "\n" not in str(error.value)
+    bag.close()
+    with pytest.raises(RunFailed, match="is closed"):
+        bag.write("/joint_states", JOINT_STATE, 0, MESSAGE)
+    about = reader.info(tmp_path / "bag")
+    assert (about["complete"], about["reason"]) == (False, "the recording was cut")
+    assert 0 < about["messages"] < written  # type: ignore[operator]
+
+
+WRITE_UNTIL_KILLED = """
+import sys
+from pathlib import Path
+from fpt_ros.bags.writer import BagWriter
+from fpt_ros.messages.cdr import Codec
+from fpt_ros.messages.frames import JointStates
+from fpt_ros.messages.topics import JOINT_STATES
+
+codec = Codec(JOINT_STATES)
+with BagWriter(Path(sys.argv[1]), {}, {}) as bag:
+    for cycle in range(10**9):
+        frame = JointStates(cycle, ("a",), (float(cycle),), (0.0,), (0.0,))
+        bag.write("/joint_states", JOINT_STATES.type, cycle, codec.encode(frame))
+        if cycle == 10_000:
+            print("running", flush=True)
+"""
+
+
+@pytest.mark.parametrize("sent", [signal.SIGKILL, signal.SIGINT])
+@pytest.mark.parametrize("attempt", range(4))
+def test_killed_or_interrupted_at_any_moment(tmp_path: Path, sent: int, attempt: int) -> None:
+    command = [sys.executable, "-c", WRITE_UNTIL_KILLED, str(tmp_path / "bag")]
+    with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL) as process:
+        assert process.stdout is not None
+        assert process.stdout.readline() == b"running\n"
+        os.kill(process.pid, sent)
+        process.wait(timeout=60)
+    run = reader.read_run(tmp_path / "bag")
+    series = run.topics["joint_states"]
+    assert np.array_equal(series.column("position", "a"), np.arange(len(series.stamps)))
+    assert run.info["complete"] == "false"
+    if sent == signal.SIGINT:
+        assert run.info["reason"] == "interrupted"
+        with (tmp_path / "bag" / "bag_0.mcap").open("rb") as stream:
+            read = sum(1 for _ in make_reader(stream, validate_crcs=True).iter_messages())
+        assert read == len(series.stamps) > 10_000
+    else:
+        assert run.info["reason"] == "the recording was cut"
+
+
+def test_a_slow_run_is_in_the_file_within_a_second(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    now = 100.0
+    monkeypatch.setattr("fpt_ros.bags.writer.monotonic", lambda: now)
+    bag = BagWriter(tmp_path / "bag", {}, {})
+    for second in range(3):
+        now = 100.0 + 1.1 * second
+        bag.write("/joint_states", JOINT_STATE, second, MESSAGE)
+    assert reader.info(tmp_path / "bag")["messages"] == 3
+    bag.write("/joint_states", JOINT_STATE, 3, MESSAGE)
+    assert reader.info(tmp_path / "bag")["messages"] == 3
+    bag.flush()
+    assert reader.info(tmp_path / "bag")["messages"] == 4
+    bag.close()

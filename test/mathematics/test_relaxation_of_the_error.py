@@ -1,0 +1,56 @@
+"""(d/dt + Lambda)^n e = 0: what the desired response prescribes."""
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from fpt_ros.error_relaxation import RELAXATIONS, pd, pid
+
+number = st.floats(-10.0, 10.0)
+rate = st.floats(0.1, 20.0)
+
+
+@settings(deadline=None)
+@given(rate, number, st.floats(0.0, 1.0))
+def test_pd_lets_exp_and_t_exp_decay(lam, nominal, t):
+    """e = exp(-Lambda t) and t exp(-Lambda t) solve (d/dt + Lambda)^2 e = 0: q'' = q''Des."""
+    e = np.exp(-lam * t)
+    for value, slope, bend in (
+        (e, -lam * e, lam**2 * e),
+        (t * e, (1 - lam * t) * e, (lam**2 * t - 2 * lam) * e),
+    ):
+        response = nominal - bend  # e = q^N - q
+        desired = pd(lam, nominal, value, slope, 123.0)
+        assert desired == pytest.approx(response, abs=1e-12 * (1 + lam**2 * 10))
+
+
+@settings(deadline=None)
+@given(rate, number, st.floats(0.0, 1.0))
+def test_pid_lets_the_integral_decay(lam, nominal, t):
+    """The integral of e may be exp, t exp or t^2 exp: e'' follows from (d/dt + Lambda)^3 = 0."""
+    x = np.polynomial.Polynomial([0.0, 1.0])
+    for power in range(3):
+        factor = x**power
+        derivatives = []
+        for _ in range(4):
+            derivatives.append(factor(t) * np.exp(-lam * t))
+            factor = factor.deriv() - lam * factor
+        integral, e, slope, bend = derivatives
+        desired = pid(lam, nominal, e, slope, integral)
+        assert desired == pytest.approx(nominal - bend, abs=1e-12 * (1 + 10 * lam**3))
+
+
+@pytest.mark.parametrize(("law", "order"), [(pd, 2), (pid, 3)])
+@pytest.mark.parametrize("lam", [1.0, 6.0, 10.0])
+def test_characteristic_polynomial(law, order, lam):
+    """The law's gains are the binomial coefficients of (s + Lambda)^n."""
+    gains = [law(lam, 0.0, *unit) for unit in ((0, 1, 0), (1, 0, 0), (0, 0, 1))][: order]
+    expected = np.poly([-lam] * order)
+    assert [1.0, *gains] == pytest.approx(expected, rel=1e-14)
+    assert law(lam, 7.0, 0.0, 0.0, 0.0) == 7.0
+
+
+def test_names():
+    assert RELAXATIONS["pd"] is pd
+    assert RELAXATIONS["pid"] is pid
