@@ -4,7 +4,7 @@ from collections.abc import Callable, Sequence
 
 from matplotlib.lines import Line2D
 
-from fpt_ros.analysis import style
+from fpt_ros.analysis import signals, style
 from fpt_ros.loop.run import Run
 
 Entry = Line2D | tuple[Line2D, ...]
@@ -41,7 +41,9 @@ def colour_of(run: Run, name: str) -> str:
 
 def realised(runs: Sequence[Run], rows: Sequence[str]) -> Entry:
     """Legend entry of the realised curves, in the colours that they have."""
-    colours = dict.fromkeys(colour_of(run, name) for name in rows for run in runs)
+    colours = dict.fromkeys(
+        colour_of(run, name) for name in rows for run in runs if name in signals.controlled(run)
+    )
     return tuple(style.handle("realised", style.thin(colour)) for colour in colours)
 
 

@@ -33,7 +33,7 @@ def info(bag: Bag, json: Json = False) -> None:
     out.print(table)
     counts = Table("topic", "type", "messages", box=None, pad_edge=False)
     for topic, each in topics.items():
-        counts.add_row(topic, each["type"], str(each["count"]))
+        counts.add_row(topic, each["type"], str(each["messages"]))
     out.print(counts)
     for node, values in parameters.items():
         words = ", ".join(f"{name}={value}" for name, value in values.items())

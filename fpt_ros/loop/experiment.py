@@ -186,12 +186,11 @@ def _path_of(name: str) -> Path:
 
 
 def _variant_path(path: Path, variant: str) -> Path:
-    overlay = path.with_name(f"{path.stem}.{variant}.yaml")
-    if not overlay.is_file() or "/" in variant:
-        found = [p.stem.partition(".")[2] for p in sorted(path.parent.glob(f"{path.stem}.*.yaml"))]
+    found = [p.stem.partition(".")[2] for p in sorted(path.parent.glob(f"{path.stem}.*.yaml"))]
+    if variant not in found:
         valid = ", ".join([BASE, *found])
         raise BadInput(f"{path.stem} has no variant '{variant}': it has {valid}")
-    return overlay
+    return path.with_name(f"{path.stem}.{variant}.yaml")
 
 
 def _setting(text: str) -> tuple[str, str, object]:

@@ -76,10 +76,10 @@ class Recorder(LoopNode):
         index = len(self._counts)
         self._counts.append(0)
         resolved = self.resolve_topic_name(name)
-        self._writer.add_topic(resolved, kind, depth=DEPTH)
-        self.subscribe_raw(name, kind, 4 * DEPTH, self._on_loop_message(index, resolved))
+        self._writer.add_topic(resolved, kind, DEPTH)
+        self.subscribe_raw(name, kind, 4 * DEPTH, self._on_loop_message(index, resolved, kind))
 
-    def _on_loop_message(self, index: int, name: str) -> Callable[[bytes], None]:
+    def _on_loop_message(self, index: int, name: str, kind: str) -> Callable[[bytes], None]:
         write, counts, stamps = self._writer.write, self._counts, self._stamps
 
         def record(data: bytes) -> None:
@@ -96,7 +96,7 @@ class Recorder(LoopNode):
                     )
             elif not stamps or stamp > stamps[-1]:
                 stamps.append(stamp)
-            write(name, stamp, data)
+            write(name, kind, stamp, data)
             counts[index] = count + 1
             if min(counts) >= self._acknowledged + ACKNOWLEDGE:
                 self._acknowledge()
@@ -111,10 +111,11 @@ class Recorder(LoopNode):
 
     def _record_side_topic(self, name: str, kind: str) -> None:
         resolved = self.resolve_topic_name(name)
-        self._writer.add_topic(resolved, kind, depth=10, latched=False)
+        self._writer.add_topic(resolved, kind)
 
         def record(data: bytes) -> None:
-            self._writer.write(resolved, self._stamps[-1] if self._stamps else 0, data)
+            stamp = self._stamps[-1] if self._stamps else 0
+            self._writer.write(resolved, kind, stamp, data)
 
         self.create_subscription(message_class(kind), name, record, 100, raw=True)
 

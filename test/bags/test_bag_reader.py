@@ -6,11 +6,11 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from conftest import INFO, Recorded
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from mcap.reader import make_reader
 from mcap.writer import Writer
+from recorded_run import INFO, Recorded
 
 from fpt_ros.bags import reader
 from fpt_ros.bags.schemas import schema

@@ -12,9 +12,9 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from conftest import INFO, Recorded
 from mcap.reader import make_reader
 from mcap_ros2.reader import read_ros2_messages
+from recorded_run import INFO, Recorded
 from rosbags.highlevel import AnyReader
 from rosbags.typesys import Stores, get_typestore
 from ruamel.yaml import YAML

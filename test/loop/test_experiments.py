@@ -82,8 +82,9 @@ def test_settings_replace_a_law_as_a_variant_does():
     by_variant = experiment.load("tora", "nonadaptive")
     assert by_setting.nodes["fpt_deformer"] == by_variant.nodes["fpt_deformer"]
     no_tuner = experiment.load("vdp_rfpt", settings=["parameter_tuner.method=none"])
-    assert no_tuner.nodes["fpt_deformer"] == (
-        experiment.load("vdp_rfpt", "fixed_model").nodes["fpt_deformer"]
+    assert (
+        no_tuner.nodes["fpt_deformer"]
+        == (experiment.load("vdp_rfpt", "fixed_model").nodes["fpt_deformer"])
     )
     assert no_tuner.about["await_tuning"] is False
     swapped = experiment.load(
@@ -191,9 +192,7 @@ def test_unknown_names_list_what_there_is():
 @pytest.mark.parametrize("setting", ["fpt_deformer.A", "A=1", "=1", "fpt_deformer.=1", "a b", ""])
 def test_a_setting_has_a_form(setting):
     message = refused("tora", settings=[setting])
-    assert message == (
-        f"--set {setting}: it takes NODE.PARAM=VALUE, as in fpt_deformer.A=-0.2"
-    )
+    assert message == (f"--set {setting}: it takes NODE.PARAM=VALUE, as in fpt_deformer.A=-0.2")
 
 
 @pytest.mark.parametrize(
@@ -286,7 +285,9 @@ def test_tuner_and_deformer_have_the_same_model(own, tmp_path):
     path = tmp_path / "mixed.yaml"
     content = (config_directory() / "vdp_rfpt.yaml").read_text()
     other = "    model: tora\n    approximate: {M: 1.0, L: 1.0, theta: 1.0, g: 9.81}\n"
-    path.write_text(content.replace("    transformation: rfpt\n", "    transformation: rfpt\n" + other))
+    path.write_text(
+        content.replace("    transformation: rfpt\n", "    transformation: rfpt\n" + other)
+    )
     message = refused(str(path), settings=["plant_simulator.plant=tora", *(
         f"plant_simulator.exact.{x}=1.0" for x in ("M", "L", "theta", "g")
     ), "plant_simulator.initial_position=[]", "plant_simulator.initial_velocity=[]",

@@ -12,7 +12,22 @@ from fpt_ros.loop.parameter_file import ParameterFile
 
 finite = st.floats(allow_nan=False, allow_infinity=False)
 name = st.from_regex(r"[a-z][a-z_]{0,8}(\.[a-z]{1,5})?", fullmatch=True)
-AWKWARD = ["no", "yes", "on", "off", "y", "true", "null", "~", "1.0", "1e5", "0x10", "", " ", "a: b"]
+AWKWARD = [
+    "no",
+    "yes",
+    "on",
+    "off",
+    "y",
+    "true",
+    "null",
+    "~",
+    "1.0",
+    "1e5",
+    "0x10",
+    "",
+    " ",
+    "a: b",
+]
 text = st.one_of(
     st.sampled_from(AWKWARD),
     st.text(st.characters(min_codepoint=32, max_codepoint=0x2FF, exclude_categories=["Cc"])),

@@ -53,5 +53,5 @@ def test_a_vanishing_row_is_no_division_by_zero():
 
 def test_defaults_and_range():
     assert PROJECTION.prepare(resolve(PROJECTION.parameters, {}, "test")) == (1.0, 1e-6)
-    with pytest.raises(BadInput, match="epsilon: 0.0 is not valid, it takes a number > 0"):
+    with pytest.raises(BadInput, match=r"epsilon: 0\.0 is not valid, it takes a number > 0"):
         resolve(PROJECTION.parameters, {"epsilon": 0.0}, "test")

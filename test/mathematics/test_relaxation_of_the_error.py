@@ -45,7 +45,7 @@ def test_pid_lets_the_integral_decay(lam, nominal, t):
 @pytest.mark.parametrize("lam", [1.0, 6.0, 10.0])
 def test_characteristic_polynomial(law, order, lam):
     """The law's gains are the binomial coefficients of (s + Lambda)^n."""
-    gains = [law(lam, 0.0, *unit) for unit in ((0, 1, 0), (1, 0, 0), (0, 0, 1))][: order]
+    gains = [law(lam, 0.0, *unit) for unit in ((0, 1, 0), (1, 0, 0), (0, 0, 1))][:order]
     expected = np.poly([-lam] * order)
     assert [1.0, *gains] == pytest.approx(expected, rel=1e-14)
     assert law(lam, 7.0, 0.0, 0.0, 0.0) == 7.0

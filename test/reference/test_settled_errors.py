@@ -104,7 +104,9 @@ def test_the_wrong_sign_of_a_loses_tora_at_once():
     """A = +0.1: |q1| reaches 1.5 at 0.41 s."""
     loaded = experiment.load("tora", settings=["fpt_deformer.A=0.1"])
     collector = Collector()
-    with pytest.raises(Diverged, match=r"diverged at t = 0\.41\d* s: the position of q1, 1\.5") as e:
+    with pytest.raises(
+        Diverged, match=r"diverged at t = 0\.41\d* s: the position of q1, 1\.5"
+    ) as e:
         engine.run(loaded.loop(), collector)
     assert (e.value.coordinate, e.value.quantity, e.value.limit) == ("q1", "position", 1.5)
     assert abs(e.value.value) > 1.5

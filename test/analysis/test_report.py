@@ -1,0 +1,163 @@
+import io
+import json
+import re
+import stat
+
+import pytest
+from rich.console import Console
+
+from fpt_ros.analysis import report
+from fpt_ros.analysis.metrics import summary
+from fpt_ros.analysis.report import differences, write_report
+from fpt_ros.analysis.tables import console_table, content, number_text, ratio_text
+from fpt_ros.errors import BadInput
+from fpt_ros.loop.run import Run
+
+
+@pytest.fixture(scope="module")
+def pair(make):
+    return [make("tora", "nonadaptive"), make("tora")]
+
+
+@pytest.fixture(scope="module")
+def written(pair, tmp_path_factory):
+    directory = tmp_path_factory.mktemp("report") / "deep" / "out"
+    assert write_report(pair, directory) == directory / "index.html"
+    return directory
+
+
+def test_page_holds_every_figure(written):
+    page = (written / "index.html").read_text()
+    figures = sorted(path.stem for path in (written / "figures").glob("*.svg"))
+    assert len(figures) == 7
+    assert sorted(re.findall(r'<figure class="card" id="(\w+)"', page)) == figures
+    assert page.count('src="data:image/svg+xml;base64,') == len(figures)
+    for name in figures:
+        assert (written / "figures" / f"{name}.png").read_bytes().startswith(b"\x89PNG")
+
+
+def test_page_needs_nothing_from_outside(written):
+    page = (written / "index.html").read_text()
+    page = re.sub(r"base64,[A-Za-z0-9+/=]+", "", page)
+    assert "http" not in page
+    assert not re.findall(r'(?:src|href)="(?!data:)', page)
+    assert "@import" not in page
+    assert "url(" not in page
+
+
+def test_page_says_what_the_runs_show_and_how_they_compare(written):
+    page = (written / "index.html").read_text()
+    assert "<h1>TORA</h1>" in page
+    assert "What the wrong model costs without deformation." in page
+    assert "÷30.2" in page
+    assert "0.0003169" in page
+    assert "Thesis, Fig. 3.22" in page
+    assert "prefers-color-scheme: dark" in page
+    assert "@media print" in page
+
+
+def test_only_parameters_that_differ_are_marked(written, pair):
+    page = (written / "index.html").read_text()
+    marked = re.findall(r'<tr class="differs"><th scope="row"><code>(.*?)</code>', page)
+    assert {"transformation", "A", "variant"} <= set(marked)
+    assert not {"dt", "exact.m", "approximate.m"} & set(marked)
+    rows = {row.name: row for row in differences(pair)["fpt_deformer"]}
+    assert rows["transformation"].values == ("none", "sgfpt")
+    assert rows["A"].values == ("", "-0.1")
+    assert not rows["approximate.m"].differs
+
+
+def test_summary_file_is_strict_json(written, pair):
+    def refuse(word):
+        raise AssertionError(word)
+
+    found = json.loads((written / "summary.json").read_text(), parse_constant=refuse)
+    assert found["runs"] == [summary(run) for run in pair]
+    assert found["comparison"]["against"] == [0, 0]
+    assert found["comparison"]["rows"][0]["ratios"][1] == pytest.approx(0.0331273, rel=1e-3)
+    assert set(found["figures"]) == {p.stem for p in (written / "figures").glob("*.png")}
+
+
+def test_nothing_half_written_is_left_and_files_can_be_read_by_all(written):
+    files = [path for path in written.rglob("*") if path.is_file()]
+    assert len(files) == 2 + 2 * 7
+    assert all(stat.S_IMODE(path.stat().st_mode) == 0o644 for path in files)
+
+
+def test_the_same_runs_give_the_same_files(pair, written, tmp_path):
+    write_report(pair, tmp_path)
+    name = "figures/responses.svg"
+    assert (tmp_path / name).read_bytes() == (written / name).read_bytes()
+    assert (tmp_path / "index.html").read_bytes() == (written / "index.html").read_bytes()
+
+
+def test_text_is_escaped(make, shorten, tmp_path):
+    run = shorten(make("tora", duration=1.0), 50)
+    evil = "<script>alert(1)</script> $x"
+    nodes = {**run.parameters, "recorder": {**run.parameters["recorder"], "title": evil}}
+    info = {**run.info, "variant": evil, "reason": evil, "version": evil}
+    page = write_report([Run(info, nodes, run.topics)], tmp_path).read_text()
+    assert "<script" not in page
+    assert "&lt;script&gt;alert(1)&lt;/script&gt; $x" in page
+    assert "not complete, ends at 0.049 s: &lt;script&gt;" in page
+
+
+def test_a_run_without_messages_has_a_page(tmp_path):
+    page = write_report([Run({}, {}, {})], tmp_path).read_text()
+    assert "There is nothing to draw" in page
+    assert json.loads((tmp_path / "summary.json").read_text())["figures"] == {}
+
+
+def test_a_directory_that_cannot_be_written_is_bad_input(make, tmp_path):
+    (tmp_path / "file").write_text("")
+    with pytest.raises(BadInput, match=r"cannot write the report to .*file") as caught:
+        write_report([make("vdp_rfpt", duration=1.0)], tmp_path / "file")
+    assert "\n" not in str(caught.value)
+    assert [path.name for path in tmp_path.iterdir()] == ["file"]
+
+
+def test_a_write_that_fails_leaves_the_old_file(tmp_path, monkeypatch):
+    target = tmp_path / "index.html"
+    target.write_text("old")
+
+    def fail(*_):
+        raise OSError("disk full")
+
+    monkeypatch.setattr(report.os, "replace", fail)
+    with pytest.raises(OSError, match="disk full"):
+        report._write(target, b"new")
+    assert target.read_text() == "old"
+    assert list(tmp_path.iterdir()) == [target]
+
+
+def test_table_is_the_same_from_runs_and_from_summaries(pair):
+    from_runs, from_summaries = content(pair), content([summary(run) for run in pair])
+    assert [line.cells for line in from_runs.lines] == [line.cells for line in from_summaries.lines]
+    assert from_runs.headings == ("nonadaptive", "adaptive")
+    assert from_runs.note == "÷ and ×: against nonadaptive"
+    assert from_runs.lines[0].quantity == "error, rms settled [m]"
+    assert from_summaries.lines[0].quantity == "error, rms settled"
+    assert [c.better for c in from_runs.lines[0].cells] == [None, True]
+    assert [c.better for c in from_runs.lines[-1].cells] == [None, None]  # chatter is no error
+
+
+def test_console_table_prints_errors_beside_each_other(pair):
+    console = Console(width=100, record=True, file=io.StringIO())
+    console.print(console_table(pair))
+    text = console.export_text()
+    assert re.search(r"q3\s+error, rms settled \[m\]\s+0\.009566\s+0\.0003169\s+÷30\.2", text)
+
+
+@pytest.mark.parametrize(
+    ("ratio", "text"), [(1.0, "×1"), (0.0331, "÷30.2"), (25.31, "×25.3"), (0.0, "×0")]
+)
+def test_ratios_can_be_pictured(ratio, text):
+    assert ratio_text(ratio) == text
+
+
+@pytest.mark.parametrize(
+    ("value", "text"),
+    [(0.00031688, "0.0003169"), (3.254e-5, "3.254e-05"), (134.886, "134.9"), (1234.5, "1234")],
+)
+def test_numbers_keep_four_digits(value, text):
+    assert number_text(value) == text
