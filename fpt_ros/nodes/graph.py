@@ -101,7 +101,17 @@ def run(
         arguments = ["--ros-args", "--params-file", str(parameters)]
         if namespace:
             arguments += ["-r", f"__ns:=/{namespace.strip('/')}"]
-        asyncio.run(_Graph(arguments, composed, progress).run())
+        before = _tracing_files()
+        try:
+            asyncio.run(_Graph(arguments, composed, progress).run())
+        finally:
+            for path in _tracing_files() - before:
+                path.unlink(missing_ok=True)
+
+
+def _tracing_files() -> set[Path]:
+    """What LTTng, which rclpy links, puts into shared memory at its first start and never removes."""
+    return set(Path("/dev/shm").glob("lttng-ust-wait-*"))
 
 
 def environment() -> Mapping[str, str]:

@@ -128,11 +128,12 @@ class PlantNode(ParameterisedNode):
             )
 
     def health(self) -> tuple[str, dict[str, object]]:
-        """State of the run; in real time misses and latencies from sensor to command [ms]."""
+        """State of the run; in real time misses, and latencies from sensor to command since the
+        last report [ms]."""
         t = (self._stamp - self._origin) / SECOND
         values: dict[str, object] = {"time [s]": f"{t:.3f}"}
         if self._realtime and self._latencies:
-            ordered = sorted(self._latencies)
+            ordered, self._latencies = sorted(self._latencies), []
             values["deadline misses"] = self._misses
             values["latency median [ms]"] = f"{1e3 * ordered[len(ordered) // 2]:.3f}"
             values["latency p99 [ms]"] = f"{1e3 * ordered[int(0.99 * len(ordered))]:.3f}"

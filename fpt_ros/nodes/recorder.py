@@ -59,6 +59,7 @@ class Recorder(LoopNode):
                 "variant": variant,
                 "engine": "graph",
                 "version": __version__,
+                "namespace": self.get_namespace(),
                 "clock": "lockstep" if self._lockstep else "realtime",
             },
         )
@@ -98,13 +99,17 @@ class Recorder(LoopNode):
                 stamps.append(stamp)
             write(name, kind, stamp, data)
             counts[index] = count + 1
-            if min(counts) >= self._acknowledged + ACKNOWLEDGE:
+            if self._done() >= self._acknowledged + ACKNOWLEDGE:
                 self._acknowledge()
 
         return record
 
+    def _done(self) -> int:
+        """Cycles recorded: of all topics in lockstep; in real time some answers may be missing."""
+        return min(self._counts) if self._lockstep else len(self._stamps)
+
     def _acknowledge(self) -> None:
-        done = min(self._counts)
+        done = self._done()
         if done > self._acknowledged:
             self._acknowledged = self.cycles_done = done
             self._until.publish(encode_time(self._stamps[done - 1]))
@@ -128,7 +133,7 @@ class Recorder(LoopNode):
         """Finish the file; say why, if the run did not end by itself."""
         error = sys.exc_info()[1]
         reason = _reason() or (str(error) if error is not None else "")
-        if not reason and len(set(self._counts)) > 1:
+        if not reason and self._lockstep and len(set(self._counts)) > 1:
             reason = "the recorder was stopped in the middle of a cycle"
         self._writer.close(reason)
 

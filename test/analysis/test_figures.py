@@ -101,7 +101,7 @@ def test_different_experiments_stand_in_rows_of_their_own(make):
     chart = charts([make("tora", duration=1.0), make("vdp_rfpt", duration=1.0)])["tracking"]
     assert len(chart.figure.axes) == 6
     assert len(visible(chart)) == 3
-    assert chart.thesis == "Fig. 3.21"  # the thesis has none of van der Pol
+    assert chart.thesis == "tora: Fig. 3.21"  # the thesis has none of van der Pol
 
 
 @pytest.mark.parametrize("cycles", [0, 1, 2, 3, 10])

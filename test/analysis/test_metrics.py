@@ -4,6 +4,7 @@ import math
 import numpy as np
 import pytest
 
+from fpt_ros import registry
 from fpt_ros.analysis import signals
 from fpt_ros.analysis.metrics import Row, baselines, comparison, rms, summary
 from fpt_ros.loop.run import Run
@@ -208,13 +209,16 @@ def test_realised_response_stands_beside_the_command_that_caused_it(hand_made):
     assert response.tolist() == [10.0, 20.0]
 
 
-def test_realised_response_of_the_nonadaptive_exact_model_is_the_command(make):
+def test_realised_response_is_the_exact_plants_answer_to_the_same_cycles_force(make):
     run = make("tora", duration=1.0)
-    _, deformed = signals.topic(run, "command", "accelerations", "q3")
-    _, realised = signals.realised_response(run, "q3")
-    # Mass ratio of the plant: between 0.6 and 2/3, in every cycle, of what the model was asked for
-    ratio = realised[300:] / deformed[300:-1]
-    assert np.all((ratio > 0.2) & (ratio < 0.7))
+    plant = registry.plant("tora")
+    exact = plant.coefficients([20.0, 30.0, 2.0, 20.0, 9.81])
+    state, force = run.topics["joint_states"].vectors, run.topics["command"].vectors["effort"]
+    _, realised = signals.realised_response(run, "q2")
+    answer = [0.0] * 3
+    for k in (0, 1, 40, 998):
+        plant.response(exact, state["position"][k], state["velocity"][k], force[k], answer)
+        assert realised[k] == pytest.approx(answer[1], abs=1e-9)
 
 
 @pytest.mark.parametrize(("name", "expected"), [("tora", 4.0), ("vdp_rfpt", math.pi)])
