@@ -48,7 +48,7 @@ class Parameter:
         text: what it means, one line, for ``ros2 param describe`` and the docs.
         default: value when nobody gives one; ``None``: it has to be given.
         kind: ``bool``, ``int``, ``float``, ``str``, ``floats`` or ``strings``; taken from the
-            default where there is one.
+            default where there is one, else ``float``.
         unit: SI unit, empty for pure numbers.
         minimum, maximum: closed bounds of a number, or of each element of a list.
         above: open lower bound.

@@ -123,6 +123,15 @@ def test_a_shared_value_is_set_for_all_nodes_that_know_it(node):
     assert loaded.nodes["plant_simulator"]["exact.m"] == 10.0
 
 
+def test_a_value_that_a_node_has_of_its_own_is_set_there(own):
+    path, replace = own
+    replace("    form: norm\n", "    form: norm\n    approximate: {m: 12.0}\n")
+    assert experiment.load(str(path)).nodes["fpt_deformer"]["approximate.m"] == 12.0
+    loaded = experiment.load(str(path), settings=["fpt_deformer.approximate.m=8"])
+    assert loaded.nodes["fpt_deformer"]["approximate.m"] == 8.0
+    assert loaded.nodes["fpt_deformer"]["approximate.M"] == 20.0
+
+
 def test_a_shared_value_cannot_be_set_through_a_node_that_does_not_know_it():
     message = refused("vdp_rfpt", settings=["plant_simulator.approximate.m=8"])
     assert message.startswith("plant_simulator has no parameter 'approximate.m': it has await_rec")

@@ -112,6 +112,18 @@ def test_substeps_are_as_many_small_cycles_with_the_force_held():
     assert coarse.state[0] != 0.0
 
 
+def test_the_disturbance_goes_on_within_a_cycle():
+    settings = ("plant_simulator.dt=0.5", "plant_simulator.substeps=2")
+    plant = stages("vdp_rfpt", "adaptive", *settings, duration=5.0).plant
+    d = [100.0 * x for x in (180.0 / 420.0, plant._disturbance(1.0, 1.0, 0.25))]
+    plant.advance(Command(0, ("q1",), [0.0], [0.0]), 0)
+    # the first half from rest at 0, the second at q = 0 with the velocity of the first
+    v = 0.25 * d[0] / 10.0
+    v += 0.25 * (d[1] + 3.0 * v) / 10.0
+    assert plant.state[1] == pytest.approx(v, rel=1e-12)
+    assert d[0] != pytest.approx(d[1], rel=1e-3)
+
+
 def test_the_disturbance_acts_on_its_coordinate_at_the_time_of_the_cycle():
     settings = ("plant_simulator.disturbance.amplitude=70.0",)
     plant = stages("vdp_rfpt", "adaptive", *settings).plant
@@ -455,6 +467,7 @@ def test_a_live_change_takes_effect():
         ({"A": "fast"}, "fpt_deformer.A: 'fast' is not valid, it takes a number"),
         ({"gain": 1.0}, "fpt_deformer has no parameter 'gain'"),
         ({"A": -0.2, "K": 1.9}, "K = 1.9 and D = 0.6 give no fixed point"),
+        ({"approximate.m": 20.0, "K": 1.9}, "K = 1.9 and D = 0.6 give no fixed point"),
         ({"approximate.m": 0.0}, "fpt_deformer.approximate.m: 0.0 is not valid"),
         ({"transformation": "none"}, "fpt_deformer.transformation cannot change while the loop"),
         ({"A": -0.2, "form": "signed"}, "fpt_deformer.form cannot change while the loop runs"),

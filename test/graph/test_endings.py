@@ -1,0 +1,125 @@
+"""However a run ends: the right exit status, a closed recording, and nothing left behind."""
+
+import signal
+import subprocess
+from pathlib import Path
+from time import monotonic
+
+import psutil
+import pytest
+from command import BIN, fpt, start_fpt
+from watcher import watcher
+
+from fpt_ros.bags.reader import read_run
+
+WITHIN = 3.0
+LONG = 1000
+
+
+def shared_memory():
+    return {path for path in Path("/dev/shm").iterdir() if not path.name.startswith("lttng")}
+
+
+def node_of(process, name):
+    for child in psutil.Process(process.pid).children(recursive=True):
+        if f"fpt_ros.nodes.{name}" in child.cmdline():
+            return child
+    raise AssertionError(name)
+
+
+def under_way(tmp_path, *options):
+    """A run of the graph that has come to t = 0.2 s, and its processes."""
+    process = start_fpt("run", "tora", "--duration", LONG, "--record", tmp_path / "bag", *options)
+    with watcher() as graph:
+        graph.wait_for_stamp(0.2)
+    return process, psutil.Process(process.pid).children(recursive=True)
+
+
+def ended(process):
+    _, stderr = process.communicate(timeout=60)
+    return stderr
+
+
+def gone(children):
+    _, alive = psutil.wait_procs(children, timeout=WITHIN)
+    return not alive
+
+
+@pytest.mark.parametrize("options", [(), ("--composed",), ("--realtime",)])
+def test_interrupt(tmp_path, options):
+    before = shared_memory()
+    process, children = under_way(tmp_path, *options)
+    assert len(children) == (2 if "--composed" in options else 6)
+    asked = monotonic()
+    process.send_signal(signal.SIGINT)
+    stderr = ended(process)
+    assert monotonic() - asked < WITHIN
+    assert process.returncode == 130, stderr
+    assert gone(children)
+    assert shared_memory() <= before
+    run = read_run(tmp_path / "bag")
+    assert run.info["complete"] == "false"
+    assert "interrupted" in run.info["reason"]
+    assert len(run.topics["command"].stamps) > 200
+    assert (tmp_path / "bag" / "metadata.yaml").is_file()
+
+
+@pytest.mark.parametrize("name", ["plant_simulator", "fpt_deformer", "parameter_tuner", "recorder"])
+def test_killed_node(tmp_path, name):
+    process, children = under_way(tmp_path)
+    asked = monotonic()
+    node_of(process, name).kill()
+    stderr = ended(process)
+    assert monotonic() - asked < WITHIN
+    assert process.returncode == 1
+    assert f"the node {name} was killed by SIGKILL" in stderr
+    assert gone(children)
+    run = read_run(tmp_path / "bag")
+    assert run.info["complete"] == "false"
+    if name != "recorder":
+        assert f"the node {name} was killed by SIGKILL" in run.info["reason"]
+
+
+def test_killed_command_takes_its_nodes_with_it(tmp_path):
+    process, children = under_way(tmp_path)
+    process.kill()
+    process.communicate(timeout=60)
+    assert gone(children)
+
+
+def test_divergence(tmp_path):
+    done = fpt("run", "tora", "--set", "fpt_deformer.A=0.1", "--record", tmp_path / "bag")
+    assert done.returncode == 1
+    assert done.stderr.splitlines()[-1] == (
+        "fpt: plant_simulator: diverged at t = 0.411 s: the position of q1, 1.51003, "
+        "is over its limit of 1.5"
+    )
+    run = read_run(tmp_path / "bag")
+    assert "q1" in run.info["reason"]
+    assert len(run.topics["command"].stamps) == 412
+
+
+def test_transformation_out_of_its_domain(tmp_path):
+    done = fpt(
+        "run", "tora", "--set", "fpt_deformer.guard=false", "--set", "fpt_deformer.A=-4",
+        "--record", tmp_path / "bag",
+    )  # fmt: skip
+    assert done.returncode == 1
+    assert "fpt_deformer: diverged at t = 0.001 s: the deformed response of q" in done.stderr
+    assert read_run(tmp_path / "bag").info["complete"] == "false"
+
+
+def test_two_graphs_in_one_domain(tmp_path):
+    process, _ = under_way(tmp_path)
+    second = subprocess.run(
+        [BIN / "plant_simulator", "--ros-args", "--params-file", "config/tora.yaml"],
+        capture_output=True,
+        text=True,
+        timeout=60,
+        check=False,
+    )
+    process.send_signal(signal.SIGINT)
+    ended(process)
+    assert second.returncode == 1
+    assert "another node publishes /joint_states" in second.stderr
+    assert "ROS_DOMAIN_ID" in second.stderr

@@ -1,0 +1,72 @@
+"""Parameters through ROS, while the loop runs."""
+
+import numpy as np
+from command import fpt_json, start_fpt
+from mcap_ros2.reader import read_ros2_messages
+from watcher import watcher
+
+from fpt_ros.bags.reader import read_run
+from fpt_ros.loop import engine, experiment
+from fpt_ros.loop.run import Collector
+from fpt_ros.messages.topics import DESIRED
+
+
+def test_changes_take_effect_at_a_cycle_and_are_recorded_with_its_stamp(tmp_path):
+    bag = tmp_path / "bag"
+    process = start_fpt("run", "tora", "--duration", 16, "--record", bag)
+    with watcher() as graph:
+        graph.wait_for_stamp(0.5)
+        assert graph.set_parameter("fpt_deformer", "A", -0.2) == (True, "")
+        assert graph.get_parameter("fpt_deformer", "A") == -0.2
+        assert graph.set_parameter("fpt_deformer", "approximate.m", 11.0)[0]
+    process.communicate(timeout=120)
+    assert process.returncode == 0
+
+    changes = {}
+    for each in read_ros2_messages(bag / "bag_0.mcap", topics=["/parameter_changes"]):
+        stamp = each.ros_msg.stamp.sec * 10**9 + each.ros_msg.stamp.nanosec
+        for changed in each.ros_msg.changed_parameters:
+            changes.setdefault(stamp, {})[changed.name] = changed.value.double_value
+    assert sorted(name for change in changes.values() for name in change) == ["A", "approximate.m"]
+
+    # the engine with the same changes at the same cycles gives the same bits
+    loop, collector = experiment.load("tora").loop(), Collector()
+
+    def observe(topic, frame):
+        collector(topic, frame)
+        if topic == DESIRED and frame.stamp in changes:
+            loop.deformer.configure(changes[frame.stamp])
+
+    engine.run(loop, observe)
+    ours, theirs = collector.topics()["command"], read_run(bag).topics["command"]
+    assert np.array_equal(ours.vectors["effort"], theirs.vectors["effort"])
+
+
+def test_bad_values_are_refused_with_a_reason_and_the_run_is_unharmed(tmp_path):
+    bag = tmp_path / "bag"
+    process = start_fpt("run", "tora", "--duration", 12, "--record", bag)
+    with watcher() as graph:
+        graph.wait_for_stamp(0.2)
+        refused = [
+            ("fpt_deformer", "K", -1.0, "range"),
+            ("fpt_deformer", "K", 1.99, "fixed point"),
+            ("fpt_deformer", "A", float("nan"), "A"),
+            ("fpt_deformer", "A", "strong", "type"),
+            ("fpt_deformer", "transformation", "none", "read-only"),
+            ("trajectory_generator", "amplitude", [0.1], "2 needed"),
+            ("trajectory_generator", "lambda", 0.0, "lambda"),
+            ("plant_simulator", "dt", 0.5, "read-only"),
+        ]
+        for node, name, value, reason in refused:
+            successful, why = graph.set_parameter(node, name, value)
+            assert not successful, name
+            assert reason in why, (name, why)
+        assert graph.get_parameter("fpt_deformer", "K") == 0.5
+    process.communicate(timeout=120)
+    assert process.returncode == 0
+    engine_bag = tmp_path / "engine"
+    fpt_json("simulate", "tora", "--duration", 12, "--record", engine_bag)
+    ours, theirs = read_run(engine_bag), read_run(bag)
+    assert np.array_equal(
+        ours.topics["command"].vectors["effort"], theirs.topics["command"].vectors["effort"]
+    )

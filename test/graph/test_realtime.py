@@ -1,0 +1,38 @@
+"""The graph on the wall clock."""
+
+from command import fpt_json
+from mcap_ros2.reader import read_ros2_messages
+
+from fpt_ros.bags.reader import read_run
+
+
+def test_cycles_follow_the_wall_clock(tmp_path):
+    bag = tmp_path / "bag"
+    result = fpt_json(
+        "run", "tora", "--realtime", "--duration", 3, "--record", bag,
+        "--set", "plant_simulator.dt=0.005",
+    )  # fmt: skip
+    assert result["complete"] is True
+    assert result["wall_time"] >= 2.9
+    run = read_run(bag)
+    stamps = run.topics["joint_states"].stamps
+    assert len(stamps) == 600
+    assert set(stamps[1:] - stamps[:-1]) == {5_000_000}
+    assert stamps[0] > 1_700_000_000 * 10**9
+    reports = [
+        {entry.key: entry.value for entry in message.ros_msg.status[0].values}
+        for message in read_ros2_messages(bag / "bag_0.mcap", topics=["/diagnostics"])
+        if message.ros_msg.status[0].name == "plant_simulator"
+    ]
+    assert any("deadline misses" in report for report in reports)
+    assert any("latency p99 [ms]" in report for report in reports)
+
+
+def test_late_commands_give_way_to_the_safe_effort():
+    from fpt_ros.loop.experiment import load
+
+    plant = load("tora", settings=["plant_simulator.safe_effort=0.5"]).loop().plant
+    command = plant.safe_command(0)
+    assert command.effort == [0.5, 0.5, 0.5]
+    plant.advance(command, 0)
+    assert list(plant.measure(1_000_000, 1).effort) == [0.5, 0.5, 0.5]

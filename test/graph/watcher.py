@@ -1,0 +1,69 @@
+"""A real ROS node in the test process, to wait for events of a running graph and to talk to it."""
+
+from contextlib import contextmanager
+
+import rclpy
+from rcl_interfaces.srv import GetParameters, SetParameters
+from rclpy.context import Context
+from rclpy.executors import SingleThreadedExecutor
+from trajectory_msgs.msg import JointTrajectory
+
+from fpt_ros.nodes.qos import loop_qos
+
+PATIENCE = 60.0
+
+
+class Watcher:
+    def __init__(self, context):
+        self.node = rclpy.create_node("watcher", context=context)
+        self.executor = SingleThreadedExecutor(context=context)
+        self.executor.add_node(self.node)
+
+    def wait_for_stamp(self, seconds, namespace=""):
+        """Until a command of this cycle or a later one has been seen."""
+        seen = rclpy.task.Future(executor=self.executor)
+
+        def on_command(message):
+            stamp = message.header.stamp
+            if stamp.sec + 1e-9 * stamp.nanosec >= seconds and not seen.done():
+                seen.set_result(True)
+
+        subscription = self.node.create_subscription(
+            JointTrajectory, f"{namespace}/command", on_command, loop_qos(1)
+        )
+        self.executor.spin_until_future_complete(seen, timeout_sec=PATIENCE)
+        self.node.destroy_subscription(subscription)
+        assert seen.done(), "the graph did not get there"
+
+    def call(self, kind, name, request):
+        client = self.node.create_client(kind, name)
+        assert client.wait_for_service(timeout_sec=PATIENCE), name
+        future = client.call_async(request)
+        self.executor.spin_until_future_complete(future, timeout_sec=PATIENCE)
+        assert future.done(), name
+        return future.result()
+
+    def set_parameter(self, node, name, value):
+        """Result of setting one parameter: (successful, reason)."""
+        parameter = rclpy.parameter.Parameter(name, value=value).to_parameter_msg()
+        request = SetParameters.Request(parameters=[parameter])
+        (result,) = self.call(SetParameters, f"/{node}/set_parameters", request).results
+        return result.successful, result.reason
+
+    def get_parameter(self, node, name):
+        request = GetParameters.Request(names=[name])
+        (value,) = self.call(GetParameters, f"/{node}/get_parameters", request).values
+        return rclpy.parameter.parameter_value_to_python(value)
+
+
+@contextmanager
+def watcher():
+    context = Context()
+    rclpy.init(context=context)
+    watching = Watcher(context)
+    try:
+        yield watching
+    finally:
+        watching.executor.shutdown()
+        watching.node.destroy_node()
+        context.try_shutdown()
