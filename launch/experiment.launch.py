@@ -3,7 +3,6 @@
 import tempfile
 from pathlib import Path
 
-from launch import LaunchDescription
 from launch.actions import DeclareLaunchArgument, OpaqueFunction, RegisterEventHandler, Shutdown
 from launch.event_handlers import OnProcessExit
 from launch.substitutions import LaunchConfiguration
@@ -11,6 +10,7 @@ from launch_ros.actions import Node
 
 from fpt_ros.loop.experiment import load
 from fpt_ros.loop.stages import STAGES
+from launch import LaunchDescription
 
 
 def start(context):

@@ -1,19 +1,28 @@
 """Every test has a ROS domain of its own, on this machine only: tests run side by side."""
 
-import itertools
-import os
+import fcntl
+import tempfile
+from pathlib import Path
 
 import pytest
 
-_PER_WORKER = 40
-_COUNTER = itertools.count()
+DOMAINS = range(1, 101)
+"""Those whose ports lie below the range that Linux hands out."""
 
 
 @pytest.fixture(autouse=True)
 def ros_domain(monkeypatch):
-    worker = int(os.environ.get("PYTEST_XDIST_WORKER", "gw0").removeprefix("gw"))
-    domain = 1 + (worker * _PER_WORKER + next(_COUNTER) % _PER_WORKER) % 100
-    monkeypatch.setenv("ROS_DOMAIN_ID", str(domain))
-    monkeypatch.setenv("ROS_AUTOMATIC_DISCOVERY_RANGE", "LOCALHOST")
-    monkeypatch.setenv("FASTDDS_BUILTIN_TRANSPORTS", "UDPv4")
-    return domain
+    """A domain that no other test of this machine has, whichever run it belongs to."""
+    folder = Path(tempfile.gettempdir()) / "fpt_ros_test_domains"
+    folder.mkdir(exist_ok=True)
+    for domain in DOMAINS:
+        with (folder / str(domain)).open("w") as lock:
+            try:
+                fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+            except BlockingIOError:
+                continue
+            monkeypatch.setenv("ROS_DOMAIN_ID", str(domain))
+            monkeypatch.setenv("ROS_AUTOMATIC_DISCOVERY_RANGE", "LOCALHOST")
+            yield domain
+            return
+    pytest.fail("all ROS domains are in use by other tests")

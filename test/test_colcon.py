@@ -8,7 +8,16 @@ from pathlib import Path
 
 ROOT = Path(__file__).parents[1]
 BIN = Path(sys.executable).parent
-COPIED = ("fpt_ros", "config", "launch", "resource", "setup.py", "setup.cfg", "package.xml", "pyproject.toml")
+COPIED = (
+    "fpt_ros",
+    "config",
+    "launch",
+    "resource",
+    "setup.py",
+    "setup.cfg",
+    "package.xml",
+    "pyproject.toml",
+)
 
 
 def test_colcon_build(tmp_path):
@@ -18,7 +27,11 @@ def test_colcon_build(tmp_path):
         path = ROOT / name
         copy = shutil.copytree if path.is_dir() else shutil.copy
         copy(path, source / name)
-    environment = {**os.environ, "AMENT_PREFIX_PATH": sys.prefix, "PATH": f"{BIN}:{os.environ['PATH']}"}
+    environment = {
+        **os.environ,
+        "AMENT_PREFIX_PATH": sys.prefix,
+        "PATH": f"{BIN}:{os.environ['PATH']}",
+    }
     done = subprocess.run(
         [BIN / "colcon", "build", "--event-handlers", "console_direct+"],
         cwd=tmp_path, env=environment, capture_output=True, text=True, timeout=300, check=False,
@@ -27,7 +40,9 @@ def test_colcon_build(tmp_path):
     prefix = tmp_path / "install" / "fpt_ros"
     share = prefix / "share" / "fpt_ros"
     assert (prefix / "share/ament_index/resource_index/packages/fpt_ros").is_file()
-    assert {p.name for p in (share / "config").iterdir()} == {p.name for p in (ROOT / "config").iterdir()}
+    assert {p.name for p in (share / "config").iterdir()} == {
+        p.name for p in (ROOT / "config").iterdir()
+    }
     assert (share / "launch" / "experiment.launch.py").is_file()
     executables = {p.name for p in (prefix / "lib" / "fpt_ros").iterdir()}
     assert executables >= {
@@ -35,8 +50,9 @@ def test_colcon_build(tmp_path):
         "fpt_deformer", "recorder",
     }  # fmt: skip
     # what ros2 run does: the installed executable, from an empty folder, with the installed config
+    command = f"{prefix}/lib/fpt_ros/fpt simulate tora --duration 1 --json"
     run = subprocess.run(
-        ["bash", "-c", f". {tmp_path}/install/setup.bash && {prefix}/lib/fpt_ros/fpt simulate tora --duration 1 --json"],
+        ["bash", "-c", f". {tmp_path}/install/setup.bash && {command}"],
         cwd=tmp_path, env=environment, capture_output=True, text=True, timeout=60, check=False,
     )  # fmt: skip
     assert run.returncode == 0, run.stderr

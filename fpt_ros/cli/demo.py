@@ -22,6 +22,7 @@ def demo(out: Out = Path("demo"), duration: Duration = None) -> None:
     from fpt_ros.cli.options import check_new_directory
     from fpt_ros.cli.output import console
     from fpt_ros.cli.run import run_recorded
+    from fpt_ros.errors import RunFailed
     from fpt_ros.loop.experiment import load
 
     folder = out / datetime.now().strftime("%Y-%m-%d_%H-%M-%S")
@@ -30,8 +31,8 @@ def demo(out: Out = Path("demo"), duration: Duration = None) -> None:
     for variant in ("adaptive", "nonadaptive"):
         bag = folder / f"tora_{variant}"
         result, failure = run_recorded(load("tora", variant, duration=duration), bag)
-        if failure is not None:
-            raise failure
+        if failure is not None or result is None:
+            raise failure or RunFailed(f"nothing was recorded in {bag}")
         bags.append(bag)
         results.append(result)
     page = write_report([read_run(bag) for bag in bags], folder / "report")

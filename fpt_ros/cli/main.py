@@ -1,4 +1,4 @@
-"""The command line: errors in one line, exit status 2 for bad input, 1 for a failed run, 130 Ctrl-C."""
+"""The command line: errors in one line; status 2 bad input, 1 a failed run, 130 Ctrl-C."""
 
 import os
 import sys
@@ -59,6 +59,8 @@ def _main(arguments: list[str]) -> int:
         context = getattr(error, "ctx", None)
         help_command = f"{context.command_path if context is not None else 'fpt'} --help"
         return _complain(f"{usage()} ({help_command} shows what is valid)", 2)
+    if status == INTERRUPTED:
+        return _complain("interrupted", INTERRUPTED)
     return status if isinstance(status, int) else 0
 
 

@@ -49,12 +49,17 @@ def check_new_directory(path: Path) -> None:
     Raises:
         BadInput: it exists, or cannot be created.
     """
-    import os
-
     if path.exists():
         raise BadInput(f"--record {path} exists: give a directory that does not")
-    parent = path.absolute().parent
-    while not parent.exists():
-        parent = parent.parent
-    if not (parent.is_dir() and os.access(parent, os.W_OK)):
-        raise BadInput(f"--record {path}: {parent} cannot be written to, give another directory")
+    missing = [path.absolute()]
+    while not missing[-1].parent.exists():
+        missing.append(missing[-1].parent)
+    try:
+        path.mkdir(parents=True)
+    except OSError as error:
+        why = error.strerror or "it cannot be created"
+        raise BadInput(f"--record {path}: {why}, give a directory that can be created") from error
+    finally:
+        for created in missing:
+            if created.is_dir():
+                created.rmdir()

@@ -3,13 +3,14 @@
 import math
 
 from fpt_ros import registry
-from fpt_ros.loop.stage import Input, Stage
+from fpt_ros.loop.stage import REALTIME, Input, Stage
 from fpt_ros.messages.frames import JointStates, StateEstimate
 from fpt_ros.messages.topics import JOINT_STATES, STATE_ESTIMATE
 from fpt_ros.parameters import Parameter, Values, word
 
 PARAMETERS = (
     Parameter("method", "filter, by its registered name; none: differences", "none", live=False),
+    REALTIME,
 )
 
 

@@ -1,11 +1,12 @@
 """What an experiment says about itself: the recorder's section of its parameter file."""
 
+from fpt_ros.loop.stage import REALTIME
 from fpt_ros.parameters import Parameter, Values
 
 NODE = "recorder"
 
 PARAMETERS = (
-    Parameter("experiment", "name of the experiment", kind="str", live=False),
+    Parameter("experiment", "its name; empty: that of the parameter file", "", live=False),
     Parameter("variant", "name of the variant", "adaptive", live=False),
     Parameter("title", "what it is, in a few words", "", live=False),
     Parameter("shows", "what it shows", "", live=False),
@@ -13,7 +14,7 @@ PARAMETERS = (
     Parameter("settle_time", "from here on the settled error counts", 0.0, unit="s", minimum=0.0),
     Parameter("directory", "where to record; must not exist", "", live=False),
     Parameter("await_tuning", "a tuner is in the loop: its topic is part of it", False, live=False),
-    Parameter("realtime", "the run is on the wall clock", False, live=False),
+    REALTIME,
 )
 
 

@@ -6,7 +6,7 @@ from fpt_ros import registry
 from fpt_ros.errors import BadInput, Diverged
 from fpt_ros.laws import NOT_CONTROLLED
 from fpt_ros.loop.approximate_model import model_parameters
-from fpt_ros.loop.stage import Input, Stage, indices
+from fpt_ros.loop.stage import REALTIME, Input, Stage, indices
 from fpt_ros.messages.frames import Command, Desired, Names, StateEstimate, Tuning
 from fpt_ros.messages.topics import COMMAND, DESIRED, STATE_ESTIMATE
 from fpt_ros.messages.topics import TUNING as TUNING_TOPIC
@@ -24,7 +24,7 @@ PARAMETERS = (
     Parameter("adaptive_from", "time at which the deformation starts", 0.0, unit="s", minimum=0.0),
     Parameter("await_tuning", "a tuner is in the loop: wait for it", False, live=False),
     Parameter("effort_command", "publish the efforts for a ros2_control controller", False),
-    Parameter("realtime", "act on the newest tuning there is", False, live=False),
+    REALTIME,
 )
 
 

@@ -3,7 +3,7 @@
 from fpt_ros import registry
 from fpt_ros.errors import BadInput
 from fpt_ros.loop.approximate_model import model_parameters
-from fpt_ros.loop.stage import Input, Stage
+from fpt_ros.loop.stage import REALTIME, Input, Stage
 from fpt_ros.messages.frames import Command, StateEstimate, Tuning
 from fpt_ros.messages.topics import COMMAND, STATE_ESTIMATE, TUNING
 from fpt_ros.parameters import Parameter, Values, group, word
@@ -33,9 +33,9 @@ class ParameterTuner(Stage):
     def parameters(cls, given: Values) -> tuple[Parameter, ...]:
         """``method``; with a law in the loop also those of the law and of the model."""
         if not in_the_loop(given):
-            return (METHOD,)
+            return (METHOD, REALTIME)
         law = registry.tuning_law(str(given["method"]))
-        return (METHOD, *law.parameters, *model_parameters(given))
+        return (METHOD, REALTIME, *law.parameters, *model_parameters(given))
 
     @property
     def inputs(self) -> tuple[Input, ...]:

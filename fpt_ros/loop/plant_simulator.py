@@ -6,7 +6,7 @@ from array import array
 from fpt_ros import registry
 from fpt_ros.errors import BadInput, Diverged
 from fpt_ros.laws import Vector
-from fpt_ros.loop.stage import Input, Stage
+from fpt_ros.loop.stage import REALTIME, Input, Stage
 from fpt_ros.messages.frames import SECOND, Command, JointStates, Names
 from fpt_ros.messages.topics import COMMAND, JOINT_STATES
 from fpt_ros.parameters import (
@@ -38,7 +38,7 @@ STRUCTURE = (
     Parameter("limit.position", "one per coordinate; empty: none", [], above=0.0, live=False),
     Parameter("safe_effort", "what acts when the command is too old", 0.0),
     Parameter("command_timeout", "age at which a command is too old", 0.1, unit="s", above=0.0),
-    Parameter("realtime", "run on the wall clock instead of in lockstep", False, live=False),
+    REALTIME,
     Parameter("await_recorder", "do not outrun the recorder", False, live=False),
 )
 

@@ -16,6 +16,9 @@ from fpt_ros.messages.frames import SECOND, Names
 from fpt_ros.messages.topics import Topic
 from fpt_ros.parameters import Parameter, Values, resolve
 
+REALTIME = Parameter("realtime", "on the wall clock instead of in lockstep", False, live=False)
+"""Declared by all nodes: what they wait for depends on it."""
+
 
 @dataclass(frozen=True)
 class Input:

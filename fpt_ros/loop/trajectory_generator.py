@@ -3,7 +3,7 @@
 from fpt_ros import registry
 from fpt_ros.error_relaxation import RELAXATIONS
 from fpt_ros.errors import BadInput
-from fpt_ros.loop.stage import Input, Stage, indices
+from fpt_ros.loop.stage import REALTIME, Input, Stage, indices
 from fpt_ros.messages.frames import Desired, Names, StateEstimate
 from fpt_ros.messages.topics import DESIRED, STATE_ESTIMATE
 from fpt_ros.parameters import Parameter, Values, number, numbers, word, words
@@ -21,6 +21,7 @@ PARAMETERS = (
         choices=tuple(sorted(RELAXATIONS)),
         live=False,
     ),
+    REALTIME,
 )
 
 

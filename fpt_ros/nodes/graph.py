@@ -21,6 +21,7 @@ from fpt_ros.loop.description import NODE as RECORDER
 from fpt_ros.loop.experiment import Experiment
 from fpt_ros.loop.plant_simulator import PlantSimulator
 from fpt_ros.loop.stages import STAGES
+from fpt_ros.nodes import shared_memory
 
 STALL = 60.0
 """Seconds without a new cycle after which the graph is given up."""
@@ -101,28 +102,17 @@ def run(
         arguments = ["--ros-args", "--params-file", str(parameters)]
         if namespace:
             arguments += ["-r", f"__ns:=/{namespace.strip('/')}"]
-        before = _tracing_files()
-        try:
+        with shared_memory.left_as_found():
             asyncio.run(_Graph(arguments, composed, progress).run())
-        finally:
-            for path in _tracing_files() - before:
-                path.unlink(missing_ok=True)
-
-
-def _tracing_files() -> set[Path]:
-    """What LTTng, which rclpy links, puts into shared memory at its first start and never removes."""
-    return set(Path("/dev/shm").glob("lttng-ust-wait-*"))
 
 
 def environment() -> Mapping[str, str]:
     """Environment of the processes.
 
-    Unless the user has chosen otherwise: nobody on the network hears us, and UDP rather than shared
-    memory, which is as fast for these messages and leaves no files behind when a node is killed.
+    Unless the user has chosen otherwise, nobody on the network hears us.
     """
     defaults = {
         "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST",
-        "FASTDDS_BUILTIN_TRANSPORTS": "UDPv4",
         "PYTHONUNBUFFERED": "1",
         "RCUTILS_LOGGING_USE_STDOUT": "0",
     }

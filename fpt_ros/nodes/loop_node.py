@@ -1,4 +1,4 @@
-"""What every node of the graph is: loop subscriptions taken as bytes, and a place in the spinner."""
+"""What every node of the graph is: loop subscriptions that hand over bytes, and diagnostics."""
 
 import importlib
 from collections.abc import Callable

@@ -118,10 +118,10 @@ class PlantNode(ParameterisedNode):
             self._publish_cycle()
 
     def housekeeping(self) -> None:
-        """Progress; and two plants on one topic are one too many."""
+        """Progress; and a plant that comes second does not start."""
         super().housekeeping()
         report_progress(self._cycle)
-        if self.count_publishers(JOINT_STATES.name) > 1:
+        if self._cycle == 0 and self.count_publishers(JOINT_STATES.name) > 1:
             raise RunFailed(
                 f"another node publishes {self.resolve_topic_name(JOINT_STATES.name)} in this ROS "
                 "domain: use another ROS_DOMAIN_ID or --namespace"
@@ -129,7 +129,8 @@ class PlantNode(ParameterisedNode):
 
     def health(self) -> tuple[str, dict[str, object]]:
         """State of the run; in real time misses, and latencies from sensor to command since the
-        last report [ms]."""
+        last report [ms].
+        """
         t = (self._stamp - self._origin) / SECOND
         values: dict[str, object] = {"time [s]": f"{t:.3f}"}
         if self._realtime and self._latencies:

@@ -46,12 +46,13 @@ def run_process(factories: Sequence[Callable[[], LoopNode]], name: str, about: s
 def _run(factories: Sequence[Callable[[], LoopNode]], stop: _Stop) -> None:
     import rclpy
     from rclpy.context import Context
+    from rclpy.impl.implementation_singleton import rclpy_implementation
     from rclpy.signals import SignalHandlerOptions
-    from rclpy.utilities import get_default_context
+    from rclpy.utilities import get_default_context, try_shutdown
 
     try:
         rclpy.init(args=sys.argv, signal_handler_options=SignalHandlerOptions.NO)
-    except rclpy._rclpy_pybind11.RCLError as error:
+    except rclpy_implementation.RCLError as error:
         raise BadInput(f"ROS arguments or parameter file: {str(error).splitlines()[0]}") from error
     context: Context = get_default_context()
     nodes: list[LoopNode] = []
@@ -64,7 +65,7 @@ def _run(factories: Sequence[Callable[[], LoopNode]], stop: _Stop) -> None:
             node.close()
         for node in nodes:
             node.destroy_node()
-        rclpy.try_shutdown()
+        try_shutdown()
 
 
 def _usage(name: str, about: str) -> str:

@@ -1,7 +1,7 @@
 """The recorder: every message of every topic, as the bytes that came, into MCAP.
 
-It also tells the plant how far it has come (:mod:`fpt_ros.nodes.recorded_until`), and checks what it
-gets: message k of every loop topic has to carry the same stamp, or the recording is not complete.
+It also tells the plant how far it has come (:mod:`fpt_ros.nodes.recorded_until`), and checks what
+it gets: message k of every loop topic carries the same stamp, or the recording is not complete.
 """
 
 import os
@@ -10,6 +10,7 @@ import sys
 from array import array
 from collections.abc import Callable
 from datetime import datetime
+from functools import reduce
 from pathlib import Path
 
 from fpt_ros import __version__
@@ -24,7 +25,7 @@ from fpt_ros.nodes.loop_node import LoopNode, message_class
 from fpt_ros.nodes.qos import loop_qos
 from fpt_ros.nodes.recorded_until import RECORDED_UNTIL, TIME, encode_time
 from fpt_ros.nodes.ros_parameters import declare
-from fpt_ros.nodes.stage_node import CHANGES
+from fpt_ros.nodes.stage_node import CHANGES, under_way
 from fpt_ros.parameters import word
 
 ACKNOWLEDGE = 8
@@ -47,13 +48,15 @@ class Recorder(LoopNode):
         super().__init__(description.NODE)
         values = declare(self, description.parameters)
         self._lockstep = values.get("realtime") is not True
-        experiment, variant = str(values.get("experiment", "run")), word(values, "variant")
-        directory = str(values.get("directory", "")) or (
+        files = _parameter_files()
+        experiment = word(values, "experiment") or (files[0].stem if files else "run")
+        variant = word(values, "variant")
+        directory = word(values, "directory") or (
             f"{experiment}_{variant}_{datetime.now():%Y-%m-%d_%H-%M-%S}"
         )
         self._writer = BagWriter(
             Path(directory),
-            complete(_parameter_files()),
+            complete(reduce(ParameterFile.overlay, map(read, files), ParameterFile())),
             {
                 "experiment": experiment,
                 "variant": variant,
@@ -88,6 +91,10 @@ class Recorder(LoopNode):
             stamp = seconds * SECOND + nanoseconds
             count = counts[index]
             if self._lockstep:
+                if count and stamp <= stamps[count - 1]:
+                    return  # not of this run: a second plant that is about to give up
+                if count == 0 and stamp > 0:
+                    raise under_way(stamp)
                 if count == len(stamps):
                     stamps.append(stamp)
                 elif stamps[count] != stamp:
@@ -149,13 +156,10 @@ def _reason() -> str:
         return ""
 
 
-def _parameter_files() -> ParameterFile:
-    """The parameter files of the command line: those of the whole graph, the recorder's own too."""
-    merged = ParameterFile()
-    for flag, path in zip(sys.argv, sys.argv[1:], strict=False):
-        if flag == "--params-file":
-            merged = merged.overlay(read(Path(path)))
-    return merged
+def _parameter_files() -> list[Path]:
+    """The parameter files of the command line: they hold the sections of all nodes."""
+    pairs = zip(sys.argv, sys.argv[1:], strict=False)
+    return [Path(path) for flag, path in pairs if flag == "--params-file"]
 
 
 def main() -> None:

@@ -1,4 +1,4 @@
-"""Our parameter definitions as ROS parameters: declared with type, range, text and read-only flag."""
+"""Our parameters as ROS parameters: declared with type, range, text and read-only flag."""
 
 import math
 from collections.abc import Callable, Mapping

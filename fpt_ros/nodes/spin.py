@@ -33,9 +33,7 @@ class _LoopWaitSet:
             for node in nodes
             for sub in node.loop_subscriptions
         ]
-        self._set = rclpy_implementation.WaitSet(
-            len(self._entries), 0, 0, 0, 0, 0, context.handle
-        )
+        self._set = rclpy_implementation.WaitSet(len(self._entries), 0, 0, 0, 0, 0, context.handle)
         self.wait_and_dispatch(0.0)
 
     def wait_and_dispatch(self, timeout: float) -> bool:

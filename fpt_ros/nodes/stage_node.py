@@ -6,6 +6,7 @@ from typing import Any
 from rcl_interfaces.msg import ParameterEvent
 from rclpy.parameter import Parameter as RosParameter
 
+from fpt_ros.errors import RunFailed
 from fpt_ros.loop.stage import Stage
 from fpt_ros.messages.cdr import Codec, MalformedMessage
 from fpt_ros.messages.frames import SECOND, Frame
@@ -120,10 +121,20 @@ class StageNode(ParameterisedNode):
                 arguments.append(None)
             else:
                 return
+        if last < 0 and stamp > 0 and not self._realtime:
+            raise under_way(stamp)
         self._acted = stamp
         if self._pending:
             self.apply_changes(stamp)
         self.send(self.stage.step(*arguments))
+
+
+def under_way(stamp: int) -> RunFailed:
+    """For who comes to a run in lockstep that is not at its first cycle, but at ``stamp`` [ns]."""
+    return RunFailed(
+        f"a run is under way here already (t = {stamp / SECOND:g} s): use another ROS_DOMAIN_ID "
+        "or --namespace"
+    )
 
 
 def run_stage(kind: type[Stage]) -> None:

@@ -56,7 +56,9 @@ def test_record_info_report(tmp_path):
 
 
 def test_divergence_of_the_engine(tmp_path):
-    done = fpt("simulate", "tora", "--set", "fpt_deformer.A=0.1", "--record", tmp_path / "b", "--json")
+    done = fpt(
+        "simulate", "tora", "--set", "fpt_deformer.A=0.1", "--record", tmp_path / "b", "--json"
+    )
     assert done.returncode == 1
     assert "diverged at t = 0.411 s: the position of q1" in done.stderr
     result = json.loads(done.stdout)
@@ -100,4 +102,8 @@ def test_demo(tmp_path):
     page = (folder / "report" / "index.html").read_text()
     assert "nonadaptive" in page
     assert str(folder / "report" / "index.html") in done.stdout
-    assert {path.name for path in folder.iterdir()} == {"tora_adaptive", "tora_nonadaptive", "report"}
+    assert {path.name for path in folder.iterdir()} == {
+        "tora_adaptive",
+        "tora_nonadaptive",
+        "report",
+    }

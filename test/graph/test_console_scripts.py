@@ -28,12 +28,14 @@ def test_five_console_scripts_and_a_recorder(tmp_path, namespace):
     remap = ["-r", f"__ns:={namespace}"] if namespace else []
     others = [start(node, file, *remap) for node in NODES]
     recorder = start("recorder", file, "-p", f"directory:={bag}", *remap)
-    plant = start("plant_simulator", file, "-p", "duration:=1.0", "-p", "await_recorder:=true", *remap)
+    plant = start(
+        "plant_simulator", file, "-p", "duration:=1.0", "-p", "await_recorder:=true", *remap
+    )
     try:
         output, _ = plant.communicate(timeout=60)
         assert plant.returncode == 0, output
     finally:
-        for process in (*others, recorder):
+        for process in (plant, *others, recorder):
             process.terminate()
         for process in (*others, recorder):
             process.communicate(timeout=20)
@@ -59,7 +61,10 @@ def test_five_console_scripts_and_a_recorder(tmp_path, namespace):
 )
 def test_bad_parameters(node, arguments, complaint):
     process = start(node, config_directory() / "tora.yaml", *arguments)
-    output, _ = process.communicate(timeout=60)
+    try:
+        output, _ = process.communicate(timeout=60)
+    finally:
+        process.kill()
     assert process.returncode == 2
     assert complaint in output
     assert len(output.strip().splitlines()) == 1

@@ -41,7 +41,12 @@ def test_graph_equals_engine(tmp_path, experiment, variant, duration, options):
 
 def test_noise_and_settings_reach_the_nodes(tmp_path):
     common = ("tora", "--variant", "nonadaptive", "--duration", 1, "--seed", 7)
-    settings = ("--set", "plant_simulator.noise.position=1e-5", "--set", "fpt_deformer.approximate.m=12")
+    settings = (
+        "--set",
+        "plant_simulator.noise.position=1e-5",
+        "--set",
+        "fpt_deformer.approximate.m=12",
+    )
     fpt_json("simulate", *common, *settings, "--record", tmp_path / "engine")
     fpt_json("run", *common, *settings, "--record", tmp_path / "graph")
     run = read_run(tmp_path / "graph")

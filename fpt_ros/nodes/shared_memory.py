@@ -1,0 +1,44 @@
+"""What DDS and tracing leave in /dev/shm, and taking it away.
+
+Fast DDS removes its segments when a process ends by itself; one that was killed leaves them (half a
+megabyte each). LTTng, which rclpy links, leaves two empty files at its first start on a machine.
+"""
+
+from collections.abc import Iterator
+from contextlib import contextmanager, suppress
+from pathlib import Path
+
+FOLDER = Path("/dev/shm")
+PATTERNS = ("fastrtps_*", "sem.fastrtps_*", "lttng-ust-wait-*")
+
+
+@contextmanager
+def left_as_found() -> Iterator[None]:
+    """Remove, at the end, what has come meanwhile and no process uses any more."""
+    before = _files()
+    try:
+        yield
+    finally:
+        new = _files() - before
+        for path in new - (_used() if new else set()):
+            path.unlink(missing_ok=True)
+
+
+def _files() -> set[Path]:
+    return {path for pattern in PATTERNS for path in FOLDER.glob(pattern)}
+
+
+def _used() -> set[Path]:
+    """Files in shared memory that some process has mapped or open."""
+    used: set[Path] = set()
+    for process in Path("/proc").glob("[0-9]*"):
+        with suppress(OSError):  # it has ended, or is another user's
+            for line in (process / "maps").read_text(errors="replace").splitlines():
+                at = line.find(f"{FOLDER}/")
+                if at >= 0:
+                    used.add(Path(line[at:].removesuffix(" (deleted)")))
+        with suppress(OSError):
+            for descriptor in (process / "fd").iterdir():
+                with suppress(OSError):
+                    used.add(descriptor.readlink())
+    return used
