@@ -38,7 +38,7 @@ setup(
         "ruamel.yaml",
         "typer",
         "rich",
-        "mcap>=1.1",
+        "mcap>=1.6",
         "rosbags>=0.10",
         "matplotlib",
         "jinja2",

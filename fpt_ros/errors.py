@@ -22,11 +22,17 @@ class RunFailed(FptError):
     """A run that began and could not go on."""
 
 
+class Interrupted(FptError):
+    """Ctrl-C; whatever was being recorded has been closed properly."""
+
+    exit_status = 130
+
+
 class Diverged(RunFailed):
     """The loop was lost: a quantity left its limit or ceased to be finite.
 
-    Carries ``time`` [s], ``coordinate``, ``quantity``, ``value`` and ``limit`` (``inf``: the value
-    is not finite).
+    Carries ``time`` [s], ``coordinate``, ``quantity``, ``value``, and the ``limit`` of the quantity
+    (``inf``: none but to be finite).
     """
 
     def __init__(

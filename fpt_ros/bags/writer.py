@@ -167,12 +167,12 @@ class BagWriter:
             self.close(reason or type(error).__name__)
 
     def _counts(self) -> dict[str, int]:
-        counts = self._file.counts()
+        counts = self._file.counts
         return {topic: counts.get(known.channel, 0) for topic, known in self._topics.items()}
 
     def _metadata(self, counts: Mapping[str, int], end: Mapping[str, str]) -> dict[str, object]:
         """``metadata.yaml`` of rosbag2, version 9."""
-        first, last = self._file.span()
+        first, last = self._file.span
         span = {
             "duration": {"nanoseconds": last - first},
             "starting_time": {"nanoseconds_since_epoch": first},

@@ -1,5 +1,8 @@
 """``fpt simulate``."""
 
+import signal
+from collections.abc import Iterator
+from contextlib import contextmanager
 from time import perf_counter
 
 from fpt_ros.cli.options import (
@@ -34,19 +37,26 @@ def simulate(
     from fpt_ros.analysis.metrics import summary
     from fpt_ros.bags.recording import EngineRecording
     from fpt_ros.cli.output import print_result, progress_bar
-    from fpt_ros.errors import RunFailed
+    from fpt_ros.errors import Interrupted, RunFailed
     from fpt_ros.loop import engine
     from fpt_ros.loop.run import Collector, Run, describe
 
     collector = Collector()
     loop = experiment.loop()
-    failure: RunFailed | None = None
+    failure: RunFailed | Interrupted | None = None
     recording = EngineRecording(record, experiment, collector)
     started = perf_counter()
-    with recording, progress_bar(f"{experiment.name} {variant}", loop.plant.cycles) as progress:
+    title = f"{experiment.name} {variant}"
+    with interrupts() as interrupted, recording, progress_bar(title, loop.plant.cycles) as bar:
+
+        def progress(cycle: int) -> None:
+            bar(cycle)
+            if interrupted:
+                raise Interrupted(f"interrupted in cycle {cycle}")
+
         try:
             engine.run(loop, recording.observe, progress)
-        except RunFailed as error:
+        except (RunFailed, Interrupted) as error:
             failure = error
             recording.reason = str(error)
     wall = perf_counter() - started
@@ -65,3 +75,14 @@ def simulate(
     )
     if failure is not None:
         raise failure
+
+
+@contextmanager
+def interrupts() -> Iterator[list[int]]:
+    """Collect Ctrl-C instead of raising it anywhere: the engine ends between two cycles."""
+    seen: list[int] = []
+    before = signal.signal(signal.SIGINT, lambda number, frame: seen.append(number))
+    try:
+        yield seen
+    finally:
+        signal.signal(signal.SIGINT, before)

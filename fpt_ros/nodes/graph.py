@@ -16,7 +16,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from fpt_ros.errors import BadInput, FptError, RunFailed
+from fpt_ros.errors import BadInput, FptError, Interrupted, RunFailed
 from fpt_ros.loop.description import NODE as RECORDER
 from fpt_ros.loop.experiment import Experiment
 from fpt_ros.loop.plant_simulator import PlantSimulator
@@ -31,12 +31,6 @@ GRACE = 1.2
 
 LAST_LINES = 12
 PR_SET_PDEATHSIG = 1
-
-
-class Interrupted(FptError):
-    """Ctrl-C; the recording has been closed properly."""
-
-    exit_status = 130
 
 
 @dataclass
