@@ -22,7 +22,8 @@ def start(context):
     names = list(STAGES)
     if record:
         experiment = experiment.with_values("plant_simulator", await_recorder=True)
-        experiment = experiment.with_values("recorder", directory=record)
+        cycles = experiment.loop().plant.cycles
+        experiment = experiment.with_values("recorder", directory=record, cycles=cycles)
         names.append("recorder")
     parameters = Path(tempfile.mkdtemp(prefix="fpt_ros-")) / "parameters.yaml"
     experiment.write(parameters)

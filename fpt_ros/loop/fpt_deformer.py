@@ -44,7 +44,11 @@ class FptDeformer(Stage):
         kind = given.get("transformation", NONE)
         if kind != NONE:
             own = registry.transformation(str(kind)).parameters
-        return (*PARAMETERS, *own, *model_parameters(given))
+        return (
+            *PARAMETERS,
+            *own,
+            *model_parameters(given, live=given.get("await_tuning") is not True),
+        )
 
     @property
     def inputs(self) -> tuple[Input, ...]:

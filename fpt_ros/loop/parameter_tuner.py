@@ -35,7 +35,7 @@ class ParameterTuner(Stage):
         if not in_the_loop(given):
             return (METHOD, REALTIME)
         law = registry.tuning_law(str(given["method"]))
-        return (METHOD, REALTIME, *law.parameters, *model_parameters(given))
+        return (METHOD, REALTIME, *law.parameters, *model_parameters(given, live=False))
 
     @property
     def inputs(self) -> tuple[Input, ...]:

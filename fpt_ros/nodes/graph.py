@@ -89,7 +89,8 @@ def run(
         if "realtime" in declared:
             experiment = experiment.with_values(node, realtime=realtime)
     experiment = experiment.with_values(PlantSimulator.name, await_recorder=True)
-    experiment = experiment.with_values(RECORDER, directory=str(record.absolute()))
+    cycles = experiment.loop().plant.cycles
+    experiment = experiment.with_values(RECORDER, directory=str(record.absolute()), cycles=cycles)
     with tempfile.TemporaryDirectory(prefix="fpt_ros-") as folder:
         parameters = Path(folder) / "parameters.yaml"
         experiment.write(parameters)

@@ -26,7 +26,7 @@ from fpt_ros.nodes.qos import loop_qos
 from fpt_ros.nodes.recorded_until import RECORDED_UNTIL, TIME, encode_time
 from fpt_ros.nodes.ros_parameters import declare
 from fpt_ros.nodes.stage_node import CHANGES, under_way
-from fpt_ros.parameters import word
+from fpt_ros.parameters import integer, word
 
 ACKNOWLEDGE = 8
 """Cycles between two messages to the plant."""
@@ -48,6 +48,7 @@ class Recorder(LoopNode):
         super().__init__(description.NODE)
         values = declare(self, description.parameters)
         self._lockstep = values.get("realtime") is not True
+        self._cycles = integer(values, "cycles")
         files = _parameter_files()
         experiment = word(values, "experiment") or (files[0].stem if files else "run")
         variant = word(values, "variant")
@@ -142,6 +143,8 @@ class Recorder(LoopNode):
         reason = _reason() or (str(error) if error is not None else "")
         if not reason and self._lockstep and len(set(self._counts)) > 1:
             reason = "the recorder was stopped in the middle of a cycle"
+        if not reason and len(self._stamps) < self._cycles:
+            reason = f"the recorder was stopped after {len(self._stamps)} of {self._cycles} cycles"
         self._writer.close(reason)
 
 

@@ -16,24 +16,25 @@ WITHIN = 3.0
 LONG = 1000
 
 
-def shared_memory():
-    return set(Path("/dev/shm").iterdir())
-
-
-def in_use():
-    """What other processes of the machine, other tests among them, have open or mapped."""
+def in_shared_memory(processes):
+    """Files in shared memory that these processes have mapped or open."""
     used = set()
-    for process in psutil.process_iter():
+    for process in processes:
         with suppress(psutil.Error):
             used |= {mapped.path for mapped in process.memory_maps()}
-        with suppress(psutil.Error):
             used |= {file.path for file in process.open_files()}
-    return {Path(path) for path in used}
+    return {Path(path) for path in used if path.startswith("/dev/shm/")}
 
 
-def leftovers(before):
-    new = shared_memory() - before
-    return {path for path in new - in_use() if path.exists()}
+def files_of(children):
+    """Those of the run alone: other tests, side by side, have theirs."""
+    own = {child.pid for child in children}
+    others = [process for process in psutil.process_iter() if process.pid not in own]
+    return in_shared_memory(children) - in_shared_memory(others)
+
+
+def left(files):
+    return {path for path in files if path.exists()}
 
 
 def node_of(process, name):
@@ -63,8 +64,9 @@ def gone(children):
 
 @pytest.mark.parametrize("options", [(), ("--composed",), ("--realtime",)])
 def test_interrupt(tmp_path, options):
-    before = shared_memory()
     process, children = under_way(tmp_path, *options)
+    files = files_of(children)
+    assert files
     assert len(children) == (2 if "--composed" in options else 6)
     asked = monotonic()
     process.send_signal(signal.SIGINT)
@@ -72,7 +74,7 @@ def test_interrupt(tmp_path, options):
     assert monotonic() - asked < WITHIN
     assert process.returncode == 130, stderr
     assert gone(children)
-    assert not leftovers(before)
+    assert not left(files)
     run = read_run(tmp_path / "bag")
     assert run.info["complete"] == "false"
     assert "interrupted" in run.info["reason"]
@@ -82,8 +84,8 @@ def test_interrupt(tmp_path, options):
 
 @pytest.mark.parametrize("name", ["plant_simulator", "fpt_deformer", "parameter_tuner", "recorder"])
 def test_killed_node(tmp_path, name):
-    before = shared_memory()
     process, children = under_way(tmp_path)
+    files = files_of(children)
     asked = monotonic()
     node_of(process, name).kill()
     stderr = ended(process)
@@ -91,7 +93,7 @@ def test_killed_node(tmp_path, name):
     assert process.returncode == 1
     assert f"the node {name} was killed by SIGKILL" in stderr
     assert gone(children)
-    assert not leftovers(before)
+    assert not left(files)
     run = read_run(tmp_path / "bag")
     assert run.info["complete"] == "false"
     if name != "recorder":
@@ -103,6 +105,9 @@ def test_killed_command_takes_its_nodes_with_it(tmp_path):
     process.kill()
     process.communicate(timeout=60)
     assert gone(children)
+    run = read_run(tmp_path / "bag")
+    assert run.info["complete"] == "false"
+    assert f"of {LONG * 1000} cycles" in run.info["reason"]
 
 
 def test_divergence(tmp_path):

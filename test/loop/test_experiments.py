@@ -50,7 +50,7 @@ def test_the_base_file_is_complete_and_typed():
     assert plant["substeps"] == 1
     assert plant["limit.position"] == [1.5, 1000.0, 1000.0]
     assert loaded.nodes["fpt_deformer"]["approximate.theta"] == 5.0
-    assert loaded.nodes["parameter_tuner"] == {"method": "none"}
+    assert loaded.nodes["parameter_tuner"] == {"method": "none", "realtime": False}
     assert loaded.about["settle_time"] == 4.0
     assert loaded.about["experiment"] == "tora"
     assert loaded.about["variant"] == "adaptive"
@@ -71,7 +71,7 @@ def test_a_variant_replaces_a_law_with_its_parameters():
     assert deformer["transformation"] == "none"
     assert not {"A", "K", "D", "guard", "form"} & deformer.keys()
     loaded = experiment.load("vdp_rfpt", "fixed_model")
-    assert loaded.nodes["parameter_tuner"] == {"method": "none"}
+    assert loaded.nodes["parameter_tuner"] == {"method": "none", "realtime": False}
     assert loaded.nodes["fpt_deformer"]["await_tuning"] is False
     assert loaded.nodes["fpt_deformer"]["approximate.m"] == 9.0
     assert loaded.about["variant"] == "fixed_model"
