@@ -141,10 +141,10 @@ class Recorder(LoopNode):
         """Finish the file; say why, if the run did not end by itself."""
         error = sys.exc_info()[1]
         reason = _reason() or (str(error) if error is not None else "")
-        if not reason and self._lockstep and len(set(self._counts)) > 1:
-            reason = "the recorder was stopped in the middle of a cycle"
         if not reason and len(self._stamps) < self._cycles:
             reason = f"the recorder was stopped after {len(self._stamps)} of {self._cycles} cycles"
+        if not reason and self._lockstep and len(set(self._counts)) > 1:
+            reason = "the recorder was stopped in the middle of a cycle"
         self._writer.close(reason)
 
 

@@ -35,6 +35,23 @@ class Watcher:
         self.node.destroy_subscription(subscription)
         assert seen.done(), "the graph did not get there"
 
+    def wait_for_next(self):
+        """Until a cycle has been completed that began after this call."""
+        first = rclpy.task.Future(executor=self.executor)
+        stamps = []
+
+        def on_command(message):
+            stamps.append((message.header.stamp.sec, message.header.stamp.nanosec))
+            if len(set(stamps)) > 2 and not first.done():
+                first.set_result(True)
+
+        subscription = self.node.create_subscription(
+            JointTrajectory, "/command", on_command, loop_qos(1)
+        )
+        self.executor.spin_until_future_complete(first, timeout_sec=PATIENCE)
+        self.node.destroy_subscription(subscription)
+        assert first.done(), "the graph stands still"
+
     def call(self, kind, name, request):
         client = self.node.create_client(kind, name)
         assert client.wait_for_service(timeout_sec=PATIENCE), name
