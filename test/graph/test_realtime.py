@@ -9,7 +9,7 @@ from fpt_ros.bags.reader import read_run
 def test_cycles_follow_the_wall_clock(tmp_path):
     bag = tmp_path / "bag"
     result = fpt_json(
-        "run", "tora", "--realtime", "--duration", 6, "--record", bag,
+        "run", "tora", "--variant", "nonadaptive", "--realtime", "--duration", 6, "--record", bag,
         "--set", "plant_simulator.dt=0.005",
     )  # fmt: skip
     assert result["complete"] is True
