@@ -15,7 +15,7 @@ DEMO := demo
 .PHONY: help setup demo test lint clean
 
 help:
-	@echo "make demo | test | lint | | setup | clean"
+	@echo "make demo | test | lint | setup | clean"
 
 setup: $(READY)
 
