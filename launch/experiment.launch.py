@@ -1,16 +1,26 @@
 """An experiment as a graph of nodes: ros2 launch fpt_ros experiment.launch.py experiment:=tora."""
 
+import shutil
 import tempfile
 from pathlib import Path
 
 from launch.actions import DeclareLaunchArgument, OpaqueFunction, RegisterEventHandler, Shutdown
-from launch.event_handlers import OnProcessExit
+from launch.event_handlers import OnProcessExit, OnShutdown
 from launch.substitutions import LaunchConfiguration
 from launch_ros.actions import Node
 
 from fpt_ros.loop.experiment import load
 from fpt_ros.loop.stages import STAGES
 from launch import LaunchDescription
+
+
+def ended(event, context):
+    """The run is over when the plant has finished; any other end is a failure of the launch."""
+    if context.is_shutdown:
+        return None
+    if event.returncode:
+        raise RuntimeError(f"{event.action.name} ended with status {event.returncode}")
+    return [Shutdown(reason=f"{event.action.name} ended")]
 
 
 def start(context):
@@ -25,10 +35,11 @@ def start(context):
         cycles = experiment.loop().plant.cycles
         experiment = experiment.with_values("recorder", directory=record, cycles=cycles)
         names.append("recorder")
-    parameters = Path(tempfile.mkdtemp(prefix="fpt_ros-")) / "parameters.yaml"
+    folder = Path(tempfile.mkdtemp(prefix="fpt_ros-"))
+    parameters = folder / "parameters.yaml"
     experiment.write(parameters)
-    nodes = {
-        name: Node(
+    nodes = [
+        Node(
             package="fpt_ros",
             executable=name,
             name=name,
@@ -37,11 +48,17 @@ def start(context):
             output="screen",
         )
         for name in names
-    }
-    finished = OnProcessExit(
-        target_action=nodes["plant_simulator"], on_exit=[Shutdown(reason="the run is over")]
-    )
-    return [*nodes.values(), RegisterEventHandler(finished)]
+    ]
+
+    def clean_up(event, context):
+        shutil.rmtree(folder, ignore_errors=True)
+
+    # first the handlers: a node may end at once
+    return [
+        RegisterEventHandler(OnShutdown(on_shutdown=clean_up)),
+        *(RegisterEventHandler(OnProcessExit(target_action=node, on_exit=ended)) for node in nodes),
+        *nodes,
+    ]
 
 
 def generate_launch_description():

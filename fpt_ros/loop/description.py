@@ -7,7 +7,7 @@ NODE = "recorder"
 
 PARAMETERS = (
     Parameter("experiment", "its name; empty: that of the parameter file", "", live=False),
-    Parameter("variant", "name of the variant", "adaptive", live=False),
+    Parameter("variant", "its name; empty: that of the parameter files", "", live=False),
     Parameter("title", "what it is, in a few words", "", live=False),
     Parameter("shows", "what it shows", "", live=False),
     Parameter("thesis", "section and figures of the thesis", "", live=False),

@@ -9,8 +9,6 @@ from fpt_ros.errors import BadInput, FptError
 from fpt_ros.nodes.loop_node import LoopNode
 from fpt_ros.nodes.spin import spin
 
-INTERRUPTED = 130
-
 
 class _Stop:
     """Set by SIGINT and SIGTERM; the spinner looks at it a few dozen times a second."""
@@ -28,8 +26,8 @@ class _Stop:
 def run_process(factories: Sequence[Callable[[], LoopNode]], name: str, about: str) -> None:
     """Run nodes until they finish, a signal comes, or one of them fails; then exit.
 
-    Exit status: 0 finished or SIGTERM, 130 SIGINT, 1 a run that failed, 2 bad parameters; the last
-    two with one line on standard error.
+    Exit status: 0 finished, or asked to end by SIGINT or SIGTERM, as a launch does; 1 a run that
+    failed, 2 bad parameters, both with one line on standard error.
     """
     if "--help" in sys.argv[1:] or "-h" in sys.argv[1:]:
         print(_usage(name, about))
@@ -40,7 +38,7 @@ def run_process(factories: Sequence[Callable[[], LoopNode]], name: str, about: s
     except FptError as error:
         print(f"{name}: {error}", file=sys.stderr, flush=True)
         sys.exit(error.exit_status)
-    sys.exit(INTERRUPTED if stop.signal == signal.SIGINT else 0)
+    sys.exit(0)
 
 
 def _run(factories: Sequence[Callable[[], LoopNode]], stop: _Stop) -> None:

@@ -17,7 +17,7 @@ from fpt_ros import __version__
 from fpt_ros.bags.writer import BagWriter
 from fpt_ros.errors import RunFailed
 from fpt_ros.loop import description
-from fpt_ros.loop.experiment import complete
+from fpt_ros.loop.experiment import BASE, complete
 from fpt_ros.loop.parameter_file import ParameterFile, read
 from fpt_ros.messages.frames import SECOND
 from fpt_ros.messages.topics import DEPTH, LOOP_TOPICS, TUNING
@@ -51,7 +51,8 @@ class Recorder(LoopNode):
         self._cycles = integer(values, "cycles")
         files = _parameter_files()
         experiment = word(values, "experiment") or (files[0].stem if files else "run")
-        variant = word(values, "variant")
+        overlays = [path.stem.partition(".")[2] for path in files if "." in path.stem]
+        variant = word(values, "variant") or (overlays[-1] if overlays else BASE)
         directory = word(values, "directory") or (
             f"{experiment}_{variant}_{datetime.now():%Y-%m-%d_%H-%M-%S}"
         )

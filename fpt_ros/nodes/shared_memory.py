@@ -2,14 +2,16 @@
 
 Fast DDS removes its segments when a process ends by itself; one that was killed leaves them (half a
 megabyte each). LTTng, which rclpy links, leaves two empty files at its first start on a machine.
+Fast DDS's ports and semaphores stay: any process may open one by its name at any moment.
 """
 
+import re
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
 
 FOLDER = Path("/dev/shm")
-PATTERNS = ("fastrtps_*", "sem.fastrtps_*", "lttng-ust-wait-*")
+NAMES = re.compile(r"fastrtps_[0-9a-f]{16}(_el)?|lttng-ust-wait-.*")
 
 
 @contextmanager
@@ -21,11 +23,12 @@ def left_as_found() -> Iterator[None]:
     finally:
         new = _files() - before
         for path in new - (_used() if new else set()):
-            path.unlink(missing_ok=True)
+            with suppress(OSError):  # another user's
+                path.unlink(missing_ok=True)
 
 
 def _files() -> set[Path]:
-    return {path for pattern in PATTERNS for path in FOLDER.glob(pattern)}
+    return {path for path in FOLDER.glob("*") if NAMES.fullmatch(path.name)}
 
 
 def _used() -> set[Path]:
