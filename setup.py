@@ -35,6 +35,7 @@ setup(
         "setuptools",
         "numpy",
         "scipy",
+        "numba",
         "ruamel.yaml",
         "typer",
         "rich",
@@ -62,18 +63,27 @@ setup(
             "van_der_pol = fpt_ros.plants.van_der_pol:MODEL",
         ],
         "fpt_ros.trajectories": [
+            "constant = fpt_ros.trajectories.constant:CONSTANT",
+            "cosines = fpt_ros.trajectories.cosines:COSINES",
+            "fitzhugh_nagumo = fpt_ros.trajectories.fitzhugh_nagumo:FITZHUGH_NAGUMO",
             "sine = fpt_ros.trajectories.sine:SINE",
             "spline = fpt_ros.trajectories.spline:SPLINE",
         ],
         "fpt_ros.disturbances": [
             "none = fpt_ros.disturbances:NONE",
             "bspline = fpt_ros.disturbances.bspline:BSPLINE",
+            "lugre = fpt_ros.disturbances.lugre:LUGRE",
+            "sine_noise = fpt_ros.disturbances.sine_noise:SINE_NOISE",
         ],
         "fpt_ros.transformations": [
             "rfpt = fpt_ros.transformations.rfpt:RFPT",
             "sgfpt = fpt_ros.transformations.sgfpt:SGFPT",
         ],
         "fpt_ros.tuning": ["projection = fpt_ros.tuning.projection:PROJECTION"],
-        "fpt_ros.filters": ["none = fpt_ros.denoising.streaming.difference:DIFFERENCE"],
+        "fpt_ros.filters": [
+            "none = fpt_ros.denoising.streaming.difference:DIFFERENCE",
+            "fitzhugh_nagumo_observer = "
+            "fpt_ros.denoising.streaming.fitzhugh_nagumo_observer:FITZHUGH_NAGUMO_OBSERVER",
+        ],
     },
 )

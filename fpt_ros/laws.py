@@ -2,12 +2,15 @@
 
 A law is written on plain numbers, element by element: it reads its vectors by index, writes its
 results into ``out``, and keeps what it remembers in a small ``state`` vector. Such code runs as it
-stands on tuples, lists, arrays and mapped memory, gives the same bits on all of them, and can be
-compiled.
+stands on tuples, lists, arrays and mapped memory, gives the same bits on all of them, and is
+compiled as it stands by :mod:`fpt_ros.loop.compiled`. So it uses no slices, no ``**``, no
+allocation, and raises nothing: where it is not defined it writes NaN, and the stage says what is
+wrong.
 """
 
 import math
-from collections.abc import MutableSequence, Sequence
+from collections.abc import Callable, MutableSequence, Sequence
+from typing import Any, TypeVar
 
 Vector = Sequence[float]
 """Numbers that are only read: one per coordinate, or a law's constants in their order."""
@@ -18,7 +21,24 @@ MutableVector = MutableSequence[float]
 NOT_CONTROLLED = math.nan
 """Marks, in a vector over all coordinates, those that nobody prescribes in this cycle."""
 
+Signature = tuple[str, ...]
+"""Kinds of a compiled function's arguments, its result last: ``v`` vector, ``f`` number, ``i``
+integer, ``-`` nothing; names of other signatures are functions.
+"""
 
+Function = TypeVar("Function", bound=Callable[..., Any])
+
+HELPERS: list[Callable[..., Any]] = []
+"""Plain functions that laws call, in the order of their definition; see :func:`helper`."""
+
+
+def helper(function: Function) -> Function:
+    """Mark a function that laws may call: it is compiled with them. It stays what it is."""
+    HELPERS.append(function)
+    return function
+
+
+@helper
 def norm(h: Vector) -> float:
     """Euclidean norm of a vector."""
     total = 0.0

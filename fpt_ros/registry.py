@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from fpt_ros.plants import Model, Plant
     from fpt_ros.trajectories import Trajectory
     from fpt_ros.transformations import Transformation
-    from fpt_ros.tuning import Identification
+    from fpt_ros.tuning import TuningLaw
 
 
 _CALLED = {"tuning": "tuning laws"}
@@ -75,9 +75,9 @@ def transformation(name: str) -> "Transformation":
     return cast("Transformation", _load("transformations", name))
 
 
-def tuning_law(name: str) -> "Identification":
+def tuning_law(name: str) -> "TuningLaw":
     """The tuning law registered as ``name``."""
-    return cast("Identification", _load("tuning", name))
+    return cast("TuningLaw", _load("tuning", name))
 
 
 def streaming_filter(name: str) -> "Filter":

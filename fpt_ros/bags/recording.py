@@ -5,7 +5,7 @@ from types import TracebackType
 from typing import Self
 
 from fpt_ros.bags.writer import BagWriter
-from fpt_ros.loop.engine import Observer
+from fpt_ros.loop.engine import Engine
 from fpt_ros.loop.experiment import Experiment
 from fpt_ros.loop.run import describe
 from fpt_ros.messages.cdr import Codec
@@ -14,15 +14,16 @@ from fpt_ros.messages.topics import DEPTH, LOOP_TOPICS, Topic
 
 
 class EngineRecording:
-    """An observer that writes every frame to a recording and passes it on.
+    """Writes the cycles of an engine to a recording, as they become complete.
 
     A context: the recording is closed at its end, with ``reason`` or with what was raised.
-    Without a directory it only passes on.
+    Without a directory it does nothing.
     """
 
-    def __init__(self, directory: Path | None, experiment: Experiment, then: Observer) -> None:
+    def __init__(self, directory: Path | None, experiment: Experiment, engine: Engine) -> None:
         self.reason = ""
-        self._then = then
+        self._engine = engine
+        self._written = 0
         self._writer: BagWriter | None = None
         self._codecs = {topic.name: Codec(topic) for topic in LOOP_TOPICS}
         if directory is not None:
@@ -30,10 +31,11 @@ class EngineRecording:
             del info["complete"], info["reason"]
             self._writer = BagWriter(directory, experiment.nodes, {**info, "clock": "lockstep"})
 
-    @property
-    def observe(self) -> Observer:
-        """What the engine is to call."""
-        return self._then if self._writer is None else self._record
+    def update(self) -> None:
+        """Write what has been done since the last time."""
+        if self._writer is not None:
+            self._engine.frames(self._written, self._record)
+            self._written = self._engine.done
 
     def _record(self, topic: Topic, frame: Frame) -> None:
         assert self._writer is not None
@@ -41,7 +43,6 @@ class EngineRecording:
         self._writer.add_topic(name, topic.type, DEPTH)
         data = self._codecs[topic.name].encode(frame)
         self._writer.write(name, topic.type, frame.stamp, data)
-        self._then(topic, frame)
 
     def __enter__(self) -> Self:
         return self
@@ -57,4 +58,5 @@ class EngineRecording:
         if error is not None:
             self._writer.__exit__(kind, error, trace)
         else:
+            self.update()
             self._writer.close(self.reason)

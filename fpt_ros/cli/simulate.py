@@ -38,30 +38,33 @@ def simulate(
     from fpt_ros.bags.recording import EngineRecording
     from fpt_ros.cli.output import print_result, progress_bar
     from fpt_ros.errors import Interrupted, RunFailed
-    from fpt_ros.loop import engine
-    from fpt_ros.loop.run import Collector, Run, describe
+    from fpt_ros.loop.engine import Engine
+    from fpt_ros.loop.run import Run, describe
 
-    collector = Collector()
-    loop = experiment.loop()
     failure: RunFailed | Interrupted | None = None
-    recording = EngineRecording(record, experiment, collector)
     started = perf_counter()
+    engine = Engine(experiment.loop())
     title = f"{experiment.name} {variant}"
-    with interrupts() as interrupted, recording, progress_bar(title, loop.plant.cycles) as bar:
+    with (
+        interrupts() as interrupted,
+        EngineRecording(record, experiment, engine) as recording,
+        progress_bar(title, engine.cycles) as bar,
+    ):
 
         def progress(cycle: int) -> None:
+            recording.update()
             bar(cycle)
             if interrupted:
                 raise Interrupted(f"interrupted in cycle {cycle}")
 
         try:
-            engine.run(loop, recording.observe, progress)
+            engine.run(progress)
         except (RunFailed, Interrupted) as error:
             failure = error
             recording.reason = str(error)
     wall = perf_counter() - started
     info = describe(experiment, "in_process", str(failure or ""))
-    result = summary(Run(info, experiment.nodes, collector.topics()))
+    result = summary(Run(info, experiment.nodes, engine.topics()))
     cycles = result["cycles"]
     assert isinstance(cycles, int)
     print_result(

@@ -6,15 +6,19 @@ is 0.83592 A and the rms 0.47716 A.
 
 import math
 
-from fpt_ros.disturbances import Disturbance
+from fpt_ros.disturbances import Disturbance, scales
+from fpt_ros.laws import MutableVector, Vector
 
 CONTROL_POINTS = tuple(c / 70.0 for c in (0, 30, 60, 20, -40, -70, -30, 10, 50, 40, -20, -50))
 
 
-def force(amplitude: float, frequency: float, t: float) -> float:
+def force(
+    constants: Vector, state: MutableVector, t: float, h: float, q: float, v: float
+) -> float:
     """Force at t [s]; ``frequency`` in knots per second."""
+    amplitude, frequency = constants[0], constants[1]
     n = len(CONTROL_POINTS)
-    knot = math.floor(frequency * t)
+    knot = int(math.floor(frequency * t))
     s = frequency * t - knot
     c0 = CONTROL_POINTS[knot % n]
     c1 = CONTROL_POINTS[(knot + 1) % n]
@@ -27,4 +31,4 @@ def force(amplitude: float, frequency: float, t: float) -> float:
     return amplitude * (b0 * c0 + b1 * c1 + b2 * c2 + b3 * c3) / 6.0
 
 
-BSPLINE = Disturbance(force)
+BSPLINE = Disturbance(scales, force)

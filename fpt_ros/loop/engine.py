@@ -1,49 +1,256 @@
-"""The in-process engine: the control cycle as one loop, without ROS."""
+"""The in-process engine: the control cycle over a whole run, compiled, without ROS."""
 
+from array import array
 from collections.abc import Callable
+from typing import Any
 
+import numpy as np
+
+from fpt_ros.errors import RunFailed
+from fpt_ros.loop import compiled, cycles
 from fpt_ros.loop.experiment import Loop
-from fpt_ros.messages.frames import Command, Frame
-from fpt_ros.messages.topics import COMMAND, DESIRED, JOINT_STATES, STATE_ESTIMATE, TUNING, Topic
+from fpt_ros.loop.fpt_deformer import no_deformation
+from fpt_ros.loop.run import Array, Series
+from fpt_ros.loop.tuned import NOTHING, tuned_by
+from fpt_ros.messages.frames import SECOND, Command, Frame
+from fpt_ros.messages.topics import (
+    COMMAND,
+    DESIRED,
+    JOINT_STATES,
+    LOOP_TOPICS,
+    STATE_ESTIMATE,
+    TUNING,
+    Topic,
+)
+
+CHUNK = 8192
+"""Cycles between two looks at progress and Ctrl-C."""
 
 Observer = Callable[[Topic, Frame], None]
 """Called with every frame, in the order of events."""
 
 
-def run(loop: Loop, observe: Observer, progress: Callable[[int], None] | None = None) -> int:
-    """Run a loop from cycle 0 to its end.
+class Engine:
+    """One run of an experiment's loop.
 
-    Args:
-        loop: fresh stages of an experiment.
-        observe: is shown every frame; a recording or a :class:`~fpt_ros.loop.run.Collector`.
-        progress: is told, now and then, how many cycles are done.
-
-    Returns:
-        Number of cycles.
-
-    Raises:
-        Diverged: the frames up to there have been shown.
+    Attributes:
+        done: number of cycles that are complete.
     """
-    plant, denoiser, trajectory = loop.plant, loop.denoiser, loop.trajectory
-    tuner, deformer = (loop.tuner if loop.tuner.active else None), loop.deformer
-    command: Command | None = None
-    for cycle in range(plant.cycles):
-        stamp = cycle * plant.cycle_time
-        measured = plant.measure(stamp, cycle)
-        observe(JOINT_STATES, measured)
-        estimate = denoiser.step(measured)
-        observe(STATE_ESTIMATE, estimate)
-        desired = trajectory.step(estimate)
-        observe(DESIRED, desired)
-        tuning = None
-        if tuner is not None:
-            tuning = tuner.step(estimate, command)
-            observe(TUNING, tuning)
-        command = deformer.step(estimate, desired, tuning)
-        observe(COMMAND, command)
-        plant.advance(command, stamp)
-        if progress is not None and cycle % 512 == 0:
-            progress(cycle)
-    if progress is not None:
-        progress(plant.cycles)
-    return plant.cycles
+
+    def __init__(self, loop: Loop, compile_laws: bool = True) -> None:
+        """Prepare fresh stages for a run.
+
+        Args:
+            loop: of an experiment; its stages' states are advanced by the run.
+            compile_laws: whether the loop runs as machine code, or as the Python that it is.
+        """
+        self._loop = loop
+        self.done = 0
+        plant, denoiser, trajectory = loop.plant, loop.denoiser, loop.trajectory
+        tuner, deformer = loop.tuner, loop.deformer
+        n, c = len(plant.coordinates), len(trajectory.controlled)
+        self._names = {
+            JOINT_STATES: plant.coordinates,
+            STATE_ESTIMATE: plant.coordinates,
+            DESIRED: trajectory.controlled,
+            TUNING: (),
+            COMMAND: plant.coordinates,
+        }
+        first = plant.measure(0, 0)
+        denoiser.begin(list(first.position), list(first.velocity), plant.cycle_time / SECOND)
+        tuned, names = NOTHING, deformer.model.coefficient_names
+        if tuner.active:
+            tuner.begin(plant.coordinates, trajectory.controlled)
+            self._names[TUNING] = tuner.published
+            tuned = tuned_by(tuner.published, names)
+        self._states = [_view(stage.state) for stage in loop.stages()]
+        law, transformation = tuner.law, deformer.transformation
+        functions: tuple[Callable[..., Any], ...] = (
+            denoiser.filter.update,
+            trajectory.trajectory.nominal,
+            trajectory.relaxation.prescribe,
+            tuner.regressor,
+            law.update,
+            transformation.deform if transformation is not None else no_deformation,
+            deformer.model.effort,
+            plant.plant.response,
+            plant.disturbance.force,
+        )
+        self._run: Callable[..., int] = cycles.run
+        if compile_laws:
+            functions = tuple(map(compiled.law, functions, cycles.FUNCTIONS))
+            self._run = compiled.loop(cycles.run, cycles.FUNCTIONS, cycles.ARGUMENTS)
+        where = np.array(trajectory.locate(plant.coordinates), dtype=np.int64)
+        tuned_where = tuner.where if tuner.active else ()
+        parts = tuner.parts() if tuner.active else (array("d"),) * 5
+        motion, errors = trajectory.memory()
+        body, friction = plant.memory()
+        self._carry = np.full(2 * n + tuner.rows, np.nan)
+        self._fixed = (
+            plant.cycle_time,
+            int(tuner.active),
+            int(law.desired),
+            int(law.reference),
+            int(tuner.guards),
+            tuned.kind,
+            tuned.first,
+            tuned.size,
+            tuned.factor,
+            int(transformation is not None),
+            deformer.delay,
+            deformer.hold,
+            plant.hit,
+            plant.plant.order,
+            plant.substeps,
+            plant.cycle_time / SECOND,
+            trajectory.lam,
+            tuner.tune_from,
+            deformer.adaptive_from,
+            deformer.gain,
+            *plant.sigma,
+            plant.step_time,
+            plant.acceleration_limit,
+            where,
+            np.array(tuned_where, dtype=np.int64),
+            *map(
+                _vector,
+                (
+                    denoiser.constants,
+                    trajectory.constants,
+                    trajectory.slots,
+                    tuner.constants,
+                    deformer.constants,
+                    deformer.weights_of(trajectory.controlled),
+                    deformer.initial,
+                    deformer.coefficients,
+                    plant.coefficients,
+                    plant.disturbance_constants,
+                    plant.position_limit,
+                    plant.noise(),
+                ),
+            ),
+            _view(denoiser.state),
+            _view(motion),
+            _view(errors),
+            *map(_view, parts),
+            _view(deformer.state),
+            _view(body),
+            _view(friction),
+            self._carry,
+        )
+        self._functions = functions
+        self._rows = {
+            topic: [np.empty((plant.cycles, len(names))) for _ in topic.vectors]
+            for topic, names in self._names.items()
+        }
+
+    @property
+    def cycles(self) -> int:
+        """Length of the run."""
+        return self._loop.plant.cycles
+
+    def run(self, progress: Callable[[int], None] | None = None) -> None:
+        """Run to the end.
+
+        Args:
+            progress: is told, every now and then, how many cycles are done; what it raises ends
+                the run there.
+
+        Raises:
+            Diverged: the cycles up to there are in the arrays.
+        """
+        total = self._loop.plant.cycles
+        while self.done < total:
+            if progress is not None:
+                progress(self.done)
+            self._advance(min(self.done + CHUNK, total))
+        if progress is not None:
+            progress(total)
+
+    def _advance(self, end: int) -> None:
+        """Run up to a cycle; where one fails, run it again as frames, for what is wrong with it."""
+        first = self.done
+        before = [state.copy() for state in (*self._states, self._carry)]
+        reached = self._call(first, end)
+        if reached == end:
+            self.done = end
+            return
+        for state, kept in zip((*self._states, self._carry), before, strict=True):
+            state[:] = kept
+        self.done = self._call(first, reached)
+        explain(self._loop, self.done, self._last_command())
+        raise RunFailed(f"cycle {self.done} failed compiled, but not as Python: this is a bug")
+
+    def _call(self, first: int, end: int) -> int:
+        rows = [matrix for vectors in self._rows.values() for matrix in vectors]
+        with np.errstate(all="ignore"):
+            return self._run(*self._functions, first, end, *self._fixed, *rows)
+
+    def _last_command(self) -> Command | None:
+        n = len(self._loop.plant.coordinates)
+        if self.done == 0:
+            return None
+        stamp = (self.done - 1) * self._loop.plant.cycle_time
+        r, effort = self._carry[:n].tolist(), self._carry[n : 2 * n].tolist()
+        return Command(stamp, self._loop.plant.coordinates, r, effort)
+
+    def topics(self) -> dict[str, Series]:
+        """The cycles so far, by topic, in the order of the cycle."""
+        return {topic.name: self._series(topic) for topic in LOOP_TOPICS if self._names[topic]}
+
+    def _series(self, topic: Topic) -> Series:
+        stamps = np.arange(self.done, dtype=np.int64) * self._loop.plant.cycle_time
+        vectors = {
+            name: matrix[: self.done]
+            for name, matrix in zip(topic.vectors, self._rows[topic], strict=True)
+        }
+        if topic is DESIRED and self._loop.trajectory.slots:
+            absent = np.isnan(vectors["accelerations"])
+            vectors = {name: np.where(absent, np.nan, m) for name, m in vectors.items()}
+        return Series(stamps, self._names[topic], vectors)
+
+    def frames(self, first: int, observe: Observer) -> None:
+        """Show the frames of the cycles from ``first`` on, in the order of events."""
+        time, slots = self._loop.plant.cycle_time, bool(self._loop.trajectory.slots)
+        lists = {
+            topic: [matrix[first : self.done].tolist() for matrix in self._rows[topic]]
+            for topic in LOOP_TOPICS
+        }
+        for i in range(self.done - first):
+            for topic in LOOP_TOPICS:
+                names = self._names[topic]
+                if not names:
+                    continue
+                vectors = [rows[i] for rows in lists[topic]]
+                if topic is DESIRED and slots:
+                    at = [j for j, x in enumerate(vectors[2]) if x == x]
+                    names = tuple(names[j] for j in at)
+                    vectors = [[vector[j] for j in at] for vector in vectors]
+                observe(topic, topic.frame((first + i) * time, names, *vectors))
+
+
+def explain(loop: Loop, cycle: int, command: Command | None) -> None:
+    """Run one cycle stage by stage, for the message of the error that it ends with."""
+    plant = loop.plant
+    stamp = cycle * plant.cycle_time
+    for stage in (loop.denoiser, loop.trajectory, loop.tuner, loop.deformer):
+        stage.clock[0], stage.clock[1] = (0, stamp - plant.cycle_time) if cycle else (-1, -1)
+    if cycle == 0:
+        loop.denoiser.constants = []
+        loop.denoiser.state = array("d")
+    estimate = loop.denoiser.step(plant.measure(stamp, cycle))
+    desired = loop.trajectory.step(estimate)
+    tuning = None
+    if loop.tuner.active:
+        wanted = (desired,) if loop.tuner.law.desired else ()
+        tuning = loop.tuner.step(estimate, *wanted, command)
+    plant.advance(loop.deformer.step(estimate, desired, tuning), stamp)
+
+
+def _vector(values: Any) -> Array:
+    return np.array(values, dtype=np.float64)
+
+
+def _view(state: Any) -> Array:
+    """The memory of a state as an array, without a copy; it cannot grow any more."""
+    return np.frombuffer(state, dtype=np.float64) if len(state) else np.empty(0)

@@ -6,6 +6,7 @@ from functools import partial
 from pathlib import Path
 from typing import cast
 
+from fpt_ros.error_relaxation import RELAXATIONS
 from fpt_ros.errors import BadInput
 from fpt_ros.loop import description, parameter_file
 from fpt_ros.loop.denoiser import Denoiser
@@ -14,9 +15,12 @@ from fpt_ros.loop.locate import config_directory
 from fpt_ros.loop.parameter_file import ParameterFile
 from fpt_ros.loop.parameter_tuner import ParameterTuner, in_the_loop
 from fpt_ros.loop.plant_simulator import PlantSimulator
+from fpt_ros.loop.stage import Stage
 from fpt_ros.loop.stages import STAGES
 from fpt_ros.loop.trajectory_generator import TrajectoryGenerator
+from fpt_ros.loop.workspace import check_workspace
 from fpt_ros.parameters import Parameter, Value, Values, resolve, word
+from fpt_ros.tuning import COEFFICIENTS
 
 BASE = "adaptive"
 """Name of the variant that is the file itself, without an overlay."""
@@ -37,6 +41,10 @@ class Loop:
     trajectory: TrajectoryGenerator
     tuner: ParameterTuner
     deformer: FptDeformer
+
+    def stages(self) -> tuple[Stage, ...]:
+        """All of them, in the order of events."""
+        return self.plant, self.denoiser, self.trajectory, self.tuner, self.deformer
 
 
 @dataclass(frozen=True)
@@ -241,7 +249,7 @@ def _declared(parameters: Callable[[Values], tuple[Parameter, ...]], given: Valu
 
 
 def _check_fit(loop: Loop) -> None:
-    """The model is of the plant's coordinates and of the tuner's, and can do what is asked."""
+    """The stages are of one plant, and can do what is asked of them."""
     plant, model = loop.plant.coordinates, loop.deformer.coordinates
     if model != plant:
         raise BadInput(
@@ -249,8 +257,25 @@ def _check_fit(loop: Loop) -> None:
             f"{', '.join(model)}, the plant {', '.join(plant)}"
         )
     loop.deformer.check_controlled(loop.trajectory.controlled)
-    if loop.tuner.active and loop.tuner.values["model"] != loop.deformer.values["model"]:
+    loop.deformer.weights_of(loop.trajectory.controlled)
+    loop.trajectory.locate(plant)
+    order = loop.plant.plant.order
+    name = word(loop.plant.values, "plant")
+    given = loop.denoiser.values["order"]
+    if given != order:
+        raise BadInput(f"denoiser.order: {given} given, the plant {name} answers with order {order}")
+    relaxation = loop.trajectory.relaxation
+    if relaxation.order != order:
+        fitting = [each for each, one in RELAXATIONS.items() if one.order == order]
+        raise BadInput(
+            f"trajectory_generator.error_relaxation: {word(loop.trajectory.values, 'error_relaxation')}"
+            f" is for a response of order {relaxation.order}, the plant {name} answers with order "
+            f"{order}: {' or '.join(fitting)}"
+        )
+    tunes = loop.tuner.active and loop.tuner.law.tunes == COEFFICIENTS
+    if tunes and loop.tuner.values["model"] != loop.deformer.values["model"]:
         raise BadInput(
             f"parameter_tuner.model: {word(loop.tuner.values, 'model')} is not the deformer's, "
             f"{word(loop.deformer.values, 'model')}"
         )
+    check_workspace(loop)

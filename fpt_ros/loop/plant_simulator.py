@@ -2,10 +2,11 @@
 
 import math
 from array import array
+from collections.abc import Callable
 
 from fpt_ros import registry
 from fpt_ros.errors import BadInput, Diverged
-from fpt_ros.laws import Vector
+from fpt_ros.laws import MutableVector, Vector, helper
 from fpt_ros.loop.stage import REALTIME, Input, Stage
 from fpt_ros.messages.frames import SECOND, Command, JointStates, Names
 from fpt_ros.messages.topics import COMMAND, JOINT_STATES
@@ -42,6 +43,85 @@ STRUCTURE = (
     Parameter("await_recorder", "do not outrun the recorder", False, live=False),
 )
 
+GOOD, EFFORT, RESPONSE, POSITION = 0, 1, 2, 3
+"""What :func:`integrate` found wrong; times ``CODE``, plus the coordinate."""
+
+CODE = 1024
+
+
+@helper
+def measure(
+    state: Vector,
+    sigma_q: float,
+    sigma_v: float,
+    table: Vector,
+    cycle: int,
+    out_q: MutableVector,
+    out_v: MutableVector,
+) -> None:
+    """Position and velocity with the noise of ``cycle``: unit normal numbers times sigma."""
+    n = len(out_q)
+    at = 2 * n * cycle
+    for i in range(n):
+        out_q[i], out_v[i] = state[i], state[n + i]
+        if len(table) > 0:
+            out_q[i] += sigma_q * table[at + i]
+            out_v[i] += sigma_v * table[at + n + i]
+
+
+@helper
+def integrate(
+    response: Callable[..., None],
+    force: Callable[..., float],
+    coefficients: Vector,
+    disturbance: Vector,
+    friction: MutableVector,
+    hit: int,
+    order: int,
+    substeps: int,
+    h: float,
+    t: float,
+    acceleration_limit: float,
+    position_limit: Vector,
+    effort: Vector,
+    state: MutableVector,
+    acting: MutableVector,
+    q: MutableVector,
+    v: MutableVector,
+    a: MutableVector,
+) -> int:
+    """Explicit Euler steps of h [s] with the effort held; 0, or what is wrong (``CODE``).
+
+    ``state``: q, v and the effort that acted last; it stays as it is where something is wrong.
+    ``friction`` is the state of the disturbance. acting, q, v, a: work vectors.
+    """
+    n = len(q)
+    for i in range(n):
+        q[i], v[i] = state[i], state[n + i]
+        if not math.isfinite(effort[i]):
+            return EFFORT * CODE + i
+    for step in range(substeps):
+        for i in range(n):
+            acting[i] = effort[i]
+        acting[hit] += force(disturbance, friction, t + step * h, h, q[hit], v[hit])
+        response(coefficients, q, v, acting, a)
+        for i in range(n):
+            if not abs(a[i]) <= acceleration_limit:
+                return RESPONSE * CODE + i
+            if order == 2:
+                q[i] += h * v[i]
+                v[i] += h * a[i]
+            elif order == 1:
+                q[i] += h * a[i]
+                v[i] = a[i]
+            else:
+                q[i] = a[i]
+            if not abs(q[i]) <= position_limit[i]:
+                return POSITION * CODE + i
+    for i in range(n):
+        state[i], state[n + i], state[2 * n + i] = q[i], v[i], effort[i]
+    return GOOD
+
 
 class PlantSimulator(Stage):
     """The exact plant, integrated by explicit Euler with the force held over the cycle.
@@ -58,7 +138,12 @@ class PlantSimulator(Stage):
         plant = given.get("plant")
         if not isinstance(plant, str):
             return STRUCTURE
-        return STRUCTURE + prefixed("exact", registry.plant(plant).parameters)
+        kind = str(given.get("disturbance.kind", "none"))
+        return (
+            *STRUCTURE,
+            *prefixed("disturbance", registry.disturbance(kind).parameters),
+            *prefixed("exact", registry.plant(plant).parameters),
+        )
 
     @property
     def inputs(self) -> tuple[Input, ...]:
@@ -67,9 +152,9 @@ class PlantSimulator(Stage):
 
     def _prepare(self) -> None:
         values = self.values
-        self._plant = plant = registry.plant(word(values, "plant"))
+        self.plant = plant = registry.plant(word(values, "plant"))
         n = len(plant.coordinates)
-        self._coefficients = plant.coefficients(group(values, "exact", plant.parameters))
+        self.coefficients = list(plant.coefficients(group(values, "exact", plant.parameters)))
         self.dt = number(values, "dt")
         self.cycle_time = round(self.dt * SECOND)
         if self.cycle_time / SECOND != self.dt:
@@ -77,29 +162,30 @@ class PlantSimulator(Stage):
         self.cycles = round(number(values, "duration") / self.dt)
         if self.cycles < 1:
             raise BadInput(f"{self.name}.duration is shorter than one cycle of {self.dt:g} s")
-        self._substeps = integer(values, "substeps")
-        self._disturbance = registry.disturbance(word(values, "disturbance.kind")).force
-        self._amplitude = number(values, "disturbance.amplitude")
-        self._frequency = number(values, "disturbance.frequency")
+        self.substeps = integer(values, "substeps")
+        self.step_time = self.dt / self.substeps
+        self.disturbance = registry.disturbance(word(values, "disturbance.kind"))
+        seed = integer(values, "seed")
+        self.disturbance_constants = list(self.disturbance.prepare(values, seed, self.cycles))
         where = word(values, "disturbance.coordinate") or plant.coordinates[0]
-        self._hit = self._position_of(where, "disturbance.coordinate")
-        self._acceleration_limit = number(values, "limit.acceleration")
-        self._position_limit = self._vector("limit.position", n, math.inf)
-        self._noise = number(values, "noise.position"), number(values, "noise.velocity")
-        self._noise_table: list[list[float]] | None = None
+        self.hit = self._position_of(where, "disturbance.coordinate")
+        self.acceleration_limit = number(values, "limit.acceleration")
+        self.position_limit = self._vector("limit.position", n, math.inf)
+        self.sigma = number(values, "noise.position"), number(values, "noise.velocity")
+        self._table: Vector | None = None
         self.timeout = round(number(values, "command_timeout") * SECOND)
         if not self.state:
             start = self._vector("initial_position", n, 0.0)
             start += self._vector("initial_velocity", n, 0.0)
-            self.state.extend(start + [0.0] * n)
+            self.state.extend(start + [0.0] * (n + self.disturbance.state))
 
     @property
     def coordinates(self) -> Names:
         """Names of the coordinates."""
-        return self._plant.coordinates
+        return self.plant.coordinates
 
     def _position_of(self, coordinate: str, parameter: str) -> int:
-        names = self._plant.coordinates
+        names = self.plant.coordinates
         if coordinate not in names:
             raise BadInput(
                 f"{self.name}.{parameter}: no coordinate '{coordinate}', only {', '.join(names)}"
@@ -109,37 +195,42 @@ class PlantSimulator(Stage):
     def _vector(self, name: str, n: int, default: float) -> list[float]:
         given = numbers(self.values, name)
         if given and len(given) != n:
-            names = ", ".join(self._plant.coordinates)
+            names = ", ".join(self.plant.coordinates)
             raise BadInput(f"{self.name}.{name}: {len(given)} numbers given, {n} needed ({names})")
         return given or [default] * n
 
-    def measure(self, stamp: int, cycle: int) -> JointStates:
-        """Step 1: what is measured at ``stamp`` [ns], the noise of ``cycle`` added."""
-        n = len(self._plant.coordinates)
-        state = self.state
-        q: Vector = state[:n]
-        v: Vector = state[n : 2 * n]
-        if self._noise != (0.0, 0.0):
-            table = self._noise_of(cycle)
-            q = [x + self._noise[0] * e for x, e in zip(q, table[:n], strict=True)]
-            v = [x + self._noise[1] * e for x, e in zip(v, table[n:], strict=True)]
-        return JointStates(stamp, self._plant.coordinates, q, v, state[2 * n :])
+    def memory(self) -> tuple[memoryview, memoryview]:
+        """The state in its two parts: of the plant, and of the disturbance."""
+        whole, split = memoryview(self.state), 3 * len(self.coordinates)
+        return whole[:split], whole[split:]
 
-    def _noise_of(self, cycle: int) -> list[float]:
-        """Unit normal numbers of a cycle: position noise, then velocity noise."""
-        if self._noise_table is None:
+    def noise(self) -> Vector:
+        """Unit normal numbers: for each cycle n for the positions, then n for the velocities.
+
+        Empty without noise.
+        """
+        if self._table is None:
+            if self.sigma == (0.0, 0.0):
+                return ()
             import numpy as np
 
             generator = np.random.default_rng(integer(self.values, "seed"))
-            size = self.cycles, 2 * len(self._plant.coordinates)
-            self._noise_table = generator.standard_normal(size).tolist()
-        return self._noise_table[cycle % self.cycles]
+            size = self.cycles * 2 * len(self.coordinates)
+            self._table = array("d", generator.standard_normal(size).tobytes())
+        return self._table
+
+    def measure(self, stamp: int, cycle: int) -> JointStates:
+        """Step 1: what is measured at ``stamp`` [ns], the noise of ``cycle`` added."""
+        n = len(self.coordinates)
+        q, v = [0.0] * n, [0.0] * n
+        measure(self.state, *self.sigma, self.noise(), cycle % self.cycles, q, v)
+        return JointStates(stamp, self.coordinates, q, v, self.state[2 * n : 3 * n])
 
     def safe_command(self, stamp: int) -> Command:
         """What acts when no command is young enough."""
-        n = len(self._plant.coordinates)
+        n = len(self.plant.coordinates)
         effort = [number(self.values, "safe_effort")] * n
-        return Command(stamp, self._plant.coordinates, [math.nan] * n, effort)
+        return Command(stamp, self.plant.coordinates, [math.nan] * n, effort)
 
     def advance(self, command: Command, stamp: int) -> None:
         """Step 6: apply the effort over [t_k, t_{k+1}), t_k = ``stamp`` [ns].
@@ -147,32 +238,39 @@ class PlantSimulator(Stage):
         Raises:
             Diverged: an acceleration or a position is not finite or beyond its limit.
         """
-        state, plant, names = self.state, self._plant, self._plant.coordinates
-        n = len(names)
-        t, h = stamp / SECOND, self.dt / self._substeps
-        q, v, a = list(state[:n]), list(state[n : 2 * n]), [0.0] * n
-        effort = list(command.effort)
-        for i in range(n):
-            if not math.isfinite(effort[i]):
-                raise Diverged(t, names[i], "effort", effort[i])
-        for step in range(self._substeps):
-            acting = effort.copy()
-            acting[self._hit] += self._disturbance(self._amplitude, self._frequency, t + step * h)
-            try:
-                plant.response(self._coefficients, q, v, acting, a)
-            except (ArithmeticError, ValueError) as error:
-                raise Diverged(t, names[0], "response", math.nan, remedy=str(error)) from error
-            for i in range(n):
-                if not abs(a[i]) <= self._acceleration_limit:
-                    raise Diverged(t, names[i], "acceleration", a[i], self._acceleration_limit)
-                q[i] += h * v[i]
-                v[i] += h * a[i]
-                if not abs(q[i]) <= self._position_limit[i]:
-                    raise Diverged(t, names[i], "position", q[i], self._position_limit[i])
-        state[:n] = _doubles(q)
-        state[n : 2 * n] = _doubles(v)
-        state[2 * n :] = _doubles(effort)
-
-
-def _doubles(values: list[float]) -> "array[float]":
-    return array("d", values)
+        n, t = len(self.coordinates), stamp / SECOND
+        plant, friction = self.memory()
+        acting, q, v, a = [0.0] * n, [0.0] * n, [0.0] * n, [0.0] * n
+        try:
+            status = integrate(
+                self.plant.response,
+                self.disturbance.force,
+                self.coefficients,
+                self.disturbance_constants,
+                friction,
+                self.hit,
+                self.plant.order,
+                self.substeps,
+                self.step_time,
+                t,
+                self.acceleration_limit,
+                self.position_limit,
+                command.effort,
+                plant,
+                acting,
+                q,
+                v,
+                a,
+            )
+        except (ArithmeticError, ValueError) as error:
+            name = self.coordinates[0]
+            raise Diverged(t, name, "response", math.nan, remedy=str(error)) from error
+        if status == GOOD:
+            return
+        code, at = divmod(status, CODE)
+        what = {
+            EFFORT: ("effort", command.effort[at], math.inf),
+            RESPONSE: ("acceleration", a[at], self.acceleration_limit),
+            POSITION: ("position", q[at], self.position_limit[at]),
+        }[code]
+        raise Diverged(t, self.coordinates[at], *what)

@@ -1,10 +1,14 @@
 """Stage 3 of the cycle: the nominal motion, and the response that makes the error decay."""
 
+import math
+from collections.abc import Callable
+
 from fpt_ros import registry
-from fpt_ros.error_relaxation import RELAXATIONS
+from fpt_ros.error_relaxation import RELAXATIONS, Prescription, combined_error
 from fpt_ros.errors import BadInput
+from fpt_ros.laws import MutableVector, Vector, helper
 from fpt_ros.loop.stage import REALTIME, Input, Stage, indices
-from fpt_ros.messages.frames import Desired, Names, StateEstimate
+from fpt_ros.messages.frames import SECOND, Desired, Names, StateEstimate
 from fpt_ros.messages.topics import DESIRED, STATE_ESTIMATE
 from fpt_ros.parameters import Parameter, Values, number, numbers, word, words
 
@@ -21,18 +25,84 @@ PARAMETERS = (
         choices=tuple(sorted(RELAXATIONS)),
         live=False,
     ),
+    Parameter(
+        "time_sharing",
+        "how long each coordinate is controlled, in turn; empty: all of them always",
+        [],
+        unit="s",
+        above=0.0,
+        live=False,
+    ),
     REALTIME,
 )
+
+
+@helper
+def slot(lengths: Vector, elapsed: float) -> int:
+    """Which coordinate's turn it is ``elapsed`` [ns] after the start; -1: everyone's."""
+    if len(lengths) == 0:
+        return -1
+    total = 0.0
+    for i in range(len(lengths)):
+        total += lengths[i]
+    phase = elapsed % total
+    for i in range(len(lengths)):
+        if phase < lengths[i]:
+            return i
+        phase -= lengths[i]
+    return len(lengths) - 1
+
+
+@helper
+def prescribe(
+    nominal: Callable[..., None],
+    relax: Prescription,
+    constants: Vector,
+    lam: float,
+    where: "tuple[int, ...] | list[int]",
+    active: int,
+    motion: MutableVector,
+    state: MutableVector,
+    t: float,
+    dt: float,
+    q: Vector,
+    v: Vector,
+    out_q: MutableVector,
+    out_v: MutableVector,
+    out_response: MutableVector,
+    out_s: MutableVector,
+) -> None:
+    """Nominal motion and desired response of the c controlled coordinates.
+
+    ``motion`` is the state of the trajectory. ``state``: the integrals of the tracking errors (c),
+    the errors of the latest cycle (c), which the next cycle adds to them (forward rectangles over
+    the time that really passed), and whose turn the latest cycle was. A coordinate whose turn it is
+    not gets NaN as its response; where its turn begins, its integral is zero.
+    """
+    c = len(out_q)
+    nominal(constants, motion, t, dt, out_q, out_v, out_response)
+    for i in range(c):
+        if active >= 0 and active != i:
+            out_response[i] = math.nan
+            out_s[i] = math.nan
+            continue
+        if active >= 0 and state[2 * c] != active:
+            state[i] = 0.0
+        else:
+            state[i] = state[i] + dt * state[c + i]
+        at = where[i]
+        error, error_dot = out_q[i] - q[at], out_v[i] - v[at]
+        out_s[i] = combined_error(lam, error, error_dot, state[i])
+        out_response[i] = relax(lam, out_response[i], error, error_dot, state[i])
+        state[c + i] = error
+    state[2 * c] = active
 
 
 class TrajectoryGenerator(Stage):
     """Kinematic prescription of the desired response.
 
-    ``controlled`` are the coordinates that follow the nominal motion.
-
-    State, for each of the c controlled coordinates: the integral of the tracking error (c numbers),
-    then the error of the latest cycle (c numbers), which the next cycle adds to it: forward
-    rectangles over the time that really passed.
+    ``controlled`` are the coordinates that follow the nominal motion; with ``time_sharing`` one
+    after the other. State: see :func:`prescribe`, then that of the trajectory.
     """
 
     name = "trajectory_generator"
@@ -40,8 +110,10 @@ class TrajectoryGenerator(Stage):
 
     @classmethod
     def parameters(cls, given: Values) -> tuple[Parameter, ...]:
-        """Those of the stage."""
-        return PARAMETERS
+        """Those of the stage and of the trajectory."""
+        name = given.get("trajectory")
+        own = registry.trajectory(name).parameters if isinstance(name, str) else ()
+        return (*PARAMETERS, *own)
 
     @property
     def inputs(self) -> tuple[Input, ...]:
@@ -51,41 +123,65 @@ class TrajectoryGenerator(Stage):
     def _prepare(self) -> None:
         values = self.values
         self.controlled = tuple(words(values, "controlled"))
-        self._amplitude = numbers(values, "amplitude")
-        self._frequency = numbers(values, "frequency")
-        self._lambda = number(values, "lambda")
+        self.lam = number(values, "lambda")
         c = len(self.controlled)
         if not 0 < c == len(set(self.controlled)):
             raise BadInput(
                 f"{self.name}.controlled: {list(self.controlled)} is not valid, it takes one or "
                 "more different coordinates of the plant"
             )
-        for name, given in (("amplitude", self._amplitude), ("frequency", self._frequency)):
+        for name in ("amplitude", "frequency"):
+            given = numbers(values, name)
             if len(given) != c:
                 wanted = ", ".join(self.controlled)
                 raise BadInput(f"{self.name}.{name}: {len(given)} given, {c} needed ({wanted})")
-        self._nominal = registry.trajectory(word(values, "trajectory")).nominal
-        self._relax = RELAXATIONS[word(values, "error_relaxation")]
+        self.slots = [float(round(x * SECOND)) for x in numbers(values, "time_sharing")]
+        if len(self.slots) not in (0, c):
+            raise BadInput(
+                f"{self.name}.time_sharing: {len(self.slots)} given, {c} needed "
+                f"({', '.join(self.controlled)}), or none"
+            )
+        self.trajectory = registry.trajectory(word(values, "trajectory"))
+        self.constants = list(self.trajectory.prepare(values, c))
+        self.relaxation = RELAXATIONS[word(values, "error_relaxation")]
         self._names: Names = ()
+        self._turns = [(name,) for name in self.controlled]
         if not self.state:
-            self.state.extend([0.0] * (2 * c))
+            self.state.extend([0.0] * (2 * c) + [-1.0, *self.trajectory.state])
+
+    def memory(self) -> tuple[memoryview, memoryview]:
+        """The state in its two parts: of the trajectory, and of the errors."""
+        whole, split = memoryview(self.state), 2 * len(self.controlled) + 1
+        return whole[split:], whole[:split]
+
+    def locate(self, names: Names) -> tuple[int, ...]:
+        """Where the controlled coordinates stand among ``names``."""
+        return indices(self.controlled, names, f"{self.name}.controlled")
 
     def step(self, estimate: StateEstimate) -> Desired:
         """Nominal motion at t_k and the desired response, for the controlled coordinates."""
         stamp, names, q, v, _ = estimate
         if names is not self._names:
-            self._where = indices(self.controlled, names, f"{self.name}.controlled")
+            self._where = self.locate(names)
             self._names = names
         t, dt = self._advance_clock(stamp)
-        c, state = len(self.controlled), self.state
-        nominal_q, nominal_v, response = [0.0] * c, [0.0] * c, [0.0] * c
-        self._nominal(self._amplitude, self._frequency, t, nominal_q, nominal_v, response)
-        for i in range(c):
-            state[i] += dt * state[c + i]
-            at = self._where[i]
-            error = nominal_q[i] - q[at]
-            response[i] = self._relax(
-                self._lambda, response[i], error, nominal_v[i] - v[at], state[i]
-            )
-            state[c + i] = error
-        return Desired(stamp, self.controlled, nominal_q, nominal_v, response)
+        c = len(self.controlled)
+        out = [0.0] * c, [0.0] * c, [0.0] * c, [0.0] * c
+        active = slot(self.slots, float(stamp - self.clock[0]))
+        prescribe(
+            self.trajectory.nominal,
+            self.relaxation.prescribe,
+            self.constants,
+            self.lam,
+            self._where,
+            active,
+            *self.memory(),
+            t,
+            dt,
+            q,
+            v,
+            *out,
+        )
+        if active < 0:
+            return Desired(stamp, self.controlled, *out)
+        return Desired(stamp, self._turns[active], *[[vector[active]] for vector in out])

@@ -35,13 +35,17 @@ class StateEstimate(NamedTuple):
 
 
 class Desired(NamedTuple):
-    """Nominal motion and, as ``accelerations``, the desired response; ``names``: controlled now."""
+    """Nominal motion and, as ``accelerations``, the desired response; ``names``: controlled now.
+
+    ``combined_error`` is s of :mod:`fpt_ros.error_relaxation`.
+    """
 
     stamp: int
     names: Names
     positions: Vector
     velocities: Vector
     accelerations: Vector
+    combined_error: Vector
 
 
 class Tuning(NamedTuple):

@@ -41,7 +41,9 @@ JOINT_STATES = Topic("joint_states", JOINT_STATE, JointStates, ("position", "vel
 STATE_ESTIMATE = Topic(
     "state_estimate", JOINT_TRAJECTORY, StateEstimate, ("positions", "velocities", "accelerations")
 )
-DESIRED = Topic("desired", JOINT_TRAJECTORY, Desired, ("positions", "velocities", "accelerations"))
+DESIRED = Topic(
+    "desired", JOINT_TRAJECTORY, Desired, ("positions", "velocities", "accelerations", "effort")
+)
 TUNING = Topic("tuning", JOINT_STATE, Tuning, ("position",))
 COMMAND = Topic("command", JOINT_TRAJECTORY, Command, ("accelerations", "effort"))
 

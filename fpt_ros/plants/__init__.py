@@ -12,6 +12,10 @@ from dataclasses import dataclass
 from fpt_ros.laws import MutableVector, Vector
 from fpt_ros.parameters import Parameter
 
+RESPONSE = "vvvvv-"
+EFFORT = "vvvvvv-"
+REGRESSOR = "vvvvv-"
+
 
 @dataclass(frozen=True)
 class Plant:
@@ -23,8 +27,12 @@ class Plant:
         effort_units: of the generalised forces, length n.
         parameters: physical parameters, in the order in which ``coefficients`` takes them.
         coefficients: physical parameters -> coefficients.
-        response: ``response(coefficients, q, v, effort, out)`` writes the n accelerations that the
-            efforts cause at (q, v).
+        response: ``response(coefficients, q, v, effort, out)`` writes the n responses that the
+            efforts cause at (q, v): derivatives of order ``order``.
+        order: 2 for mechanical systems, whose response is the acceleration; 1 where it is the first
+            derivative; 0 where it is the value itself (a bare iteration).
+        workspace: coefficients -> (lowest, highest) position of each coordinate that a nominal
+            motion may ask for; ``None``: no limit.
     """
 
     coordinates: tuple[str, ...]
@@ -33,6 +41,8 @@ class Plant:
     parameters: tuple[Parameter, ...]
     coefficients: Callable[[Vector], tuple[float, ...]]
     response: Callable[[Vector, Vector, Vector, Vector, MutableVector], None]
+    order: int = 2
+    workspace: Callable[[Vector], tuple[tuple[float, float], ...]] | None = None
 
 
 @dataclass(frozen=True)
@@ -45,11 +55,17 @@ class Model:
         parameters: physical parameters, in the order in which ``coefficients`` takes them.
         coefficient_names: names of the coefficients, as tuning publishes them.
         coefficients: physical parameters -> coefficients.
-        effort: ``effort(coefficients, q, v, r, out)`` writes the n efforts that should cause the
-            response r (length n; NaN where it is not prescribed) at (q, v).
-        regressor: ``regressor(q, v, response, out)`` writes the matrix Y (rows x coefficients, row
-            after row) with effort = Y Theta; ``None`` where the model is not linear in them.
+        effort: ``effort(coefficients, q, v, r, s, out)`` writes the n efforts that should cause the
+            response r (length n; NaN where it is not prescribed) at (q, v). s is the combined error
+            (:mod:`fpt_ros.error_relaxation`), 0 where a coordinate is not controlled; only models
+            with a feedback of their own use it.
+        regressor: ``regressor(q, v, w, a, out)`` writes the matrix Y (rows x coefficients, row
+            after row) with effort = Y Theta for the acceleration a; w is the second velocity of
+            products of velocities (v itself, or the reference velocity of Slotine and Li);
+            ``None`` where the model is not linear in its coefficients.
         rows: number of rows of Y.
+        trouble: ``trouble(coefficients, q)`` says in words what makes the model unusable at q, with
+            its value and the remedy (singular, not positive definite); empty where nothing does.
     """
 
     coordinates: tuple[str, ...]
@@ -57,6 +73,7 @@ class Model:
     parameters: tuple[Parameter, ...]
     coefficient_names: tuple[str, ...]
     coefficients: Callable[[Vector], tuple[float, ...]]
-    effort: Callable[[Vector, Vector, Vector, Vector, MutableVector], None]
-    regressor: Callable[[Vector, Vector, Vector, MutableVector], None] | None = None
+    effort: Callable[[Vector, Vector, Vector, Vector, Vector, MutableVector], None]
+    regressor: Callable[[Vector, Vector, Vector, Vector, MutableVector], None] | None = None
     rows: int = 0
+    trouble: Callable[[Vector, Vector], str] | None = None

@@ -46,7 +46,7 @@ def response(c: Vector, q: Vector, v: Vector, effort: Vector, out: MutableVector
     out[2] = (beam * force - coupling * torque) / determinant
 
 
-def effort(c: Vector, q: Vector, v: Vector, r: Vector, out: MutableVector) -> None:
+def effort(c: Vector, q: Vector, v: Vector, r: Vector, s: Vector, out: MutableVector) -> None:
     """(Q1, Q2, 0) for the responses r = (-, q2'', q3''): (3.18), q1'' eliminated by row 3.
 
     The term Theta (sin/cos) q1'^2 of Q2, a zero in the print, follows from the elimination. Not
@@ -62,6 +62,23 @@ def effort(c: Vector, q: Vector, v: Vector, r: Vector, out: MutableVector) -> No
     out[2] = 0.0
 
 
+def workspace(c: Vector) -> tuple[tuple[float, float], ...]:
+    """At rest at the start, (m + M) q3' + m L cos q1 q1' = 0 is kept: |q3| <= m L / (m + M) [m]."""
+    reach = c[0] / c[3]
+    return (-math.inf, math.inf), (-math.inf, math.inf), (-reach, reach)
+
+
+def trouble(c: Vector, q: Vector) -> str:
+    """At cos q1 = 0 the beam cannot push the cart."""
+    cos = math.cos(q[0])
+    if abs(cos) > 0.1:
+        return ""
+    return (
+        f"cos q1 = {cos:.3g} with q1 = {q[0]:.4g} rad: the model is singular at 0, where the beam "
+        "cannot push the cart (a smaller trajectory_generator.amplitude, or |fpt_deformer.A|)"
+    )
+
+
 PLANT = Plant(
     coordinates=COORDINATES,
     units=("rad", "rad", "m"),
@@ -69,6 +86,7 @@ PLANT = Plant(
     parameters=PARAMETERS,
     coefficients=coefficients,
     response=response,
+    workspace=workspace,
 )
 
 MODEL = Model(
@@ -78,4 +96,5 @@ MODEL = Model(
     coefficient_names=("mL", "mL2_theta", "theta", "m_M", "mgL"),
     coefficients=coefficients,
     effort=effort,
+    trouble=trouble,
 )

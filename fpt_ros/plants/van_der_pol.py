@@ -8,7 +8,7 @@ Linear in Theta = (m, mu, mu c, k, beta, lambda): F = Y(q'', q', q) Theta with
 Y = (q'', q^2 q', -q', q, q^3, q^5). The thesis gives no units.
 """
 
-from fpt_ros.laws import MutableVector, Vector
+from fpt_ros.laws import MutableVector, Vector, helper
 from fpt_ros.parameters import Parameter
 from fpt_ros.plants import Model, Plant
 
@@ -30,6 +30,7 @@ def coefficients(parameters: Vector) -> tuple[float, ...]:
     return m, mu, mu * c, k, beta, lam
 
 
+@helper
 def _spring_and_damper(theta: Vector, q: float, v: float) -> float:
     q2 = q * q
     damper = (theta[1] * q2 - theta[2]) * v
@@ -41,20 +42,32 @@ def response(theta: Vector, q: Vector, v: Vector, effort: Vector, out: MutableVe
     out[0] = (effort[0] - _spring_and_damper(theta, q[0], v[0])) / theta[0]
 
 
-def effort(theta: Vector, q: Vector, v: Vector, r: Vector, out: MutableVector) -> None:
+def effort(
+    theta: Vector, q: Vector, v: Vector, r: Vector, s: Vector, out: MutableVector
+) -> None:
     """Force F that should cause q'' = r (2.3)."""
     out[0] = theta[0] * r[0] + _spring_and_damper(theta, q[0], v[0])
 
 
-def regressor(q: Vector, v: Vector, response: Vector, out: MutableVector) -> None:
+def regressor(q: Vector, v: Vector, w: Vector, a: Vector, out: MutableVector) -> None:
     """Y = (q'', q^2 q', -q', q, q^3, q^5) (2.2), one row of six."""
     q2 = q[0] * q[0]
-    out[0] = response[0]
+    out[0] = a[0]
     out[1] = q2 * v[0]
     out[2] = -v[0]
     out[3] = q[0]
     out[4] = q2 * q[0]
     out[5] = q2 * q2 * q[0]
+
+
+def trouble(theta: Vector, q: Vector) -> str:
+    """The inertia has to be positive: it is the gain from force to response."""
+    if theta[0] > 1e-3:
+        return ""
+    return (
+        f"the model's inertia m^ = {theta[0]:g} has to be > 0: the tuning has lost it (a smaller "
+        "parameter_tuner.alpha, or less disturbance)"
+    )
 
 
 PLANT = Plant(
@@ -75,4 +88,5 @@ MODEL = Model(
     effort=effort,
     regressor=regressor,
     rows=1,
+    trouble=trouble,
 )

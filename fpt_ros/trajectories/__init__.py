@@ -1,9 +1,12 @@
-"""Nominal trajectories, one a file: functions of time with their first two derivatives."""
+"""Nominal trajectories, one a file: functions of time with their derivatives."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
 
 from fpt_ros.laws import MutableVector, Vector
+from fpt_ros.parameters import Parameter, Values, numbers
+
+NOMINAL = "vvffvvv-"
 
 
 @dataclass(frozen=True)
@@ -11,9 +14,48 @@ class Trajectory:
     """Nominal motion of the controlled coordinates.
 
     Attributes:
-        nominal: ``nominal(amplitude, frequency, t, out_q, out_v, out_a)`` writes position, velocity
-            and acceleration of each controlled coordinate at t [s]. ``amplitude`` is in the unit of
-            the coordinate; ``frequency`` multiplies time ([rad/s] for harmonic shapes).
+        prepare: ``prepare(values, c)``: checked parameters -> constants, for c coordinates.
+            ``amplitude`` (in the unit of the coordinate) and ``frequency`` (a factor of time,
+            [rad/s] for harmonic shapes) are parameters of every trajectory, lists of c numbers.
+        nominal: ``nominal(constants, state, t, dt, out_q, out_v, out_a)`` writes position, velocity
+            and acceleration of each controlled coordinate at t [s], dt [s] after the cycle before
+            (0 in the first). For a plant that answers with a lower derivative, ``out_a`` is that
+            derivative of the nominal motion.
+        parameters: its own, beside amplitude and frequency.
+        state: initial state, of a motion that is integrated.
     """
 
-    nominal: Callable[[Vector, Vector, float, MutableVector, MutableVector, MutableVector], None]
+    prepare: Callable[[Values, int], tuple[float, ...]]
+    nominal: Callable[
+        [
+            Vector,
+            MutableVector,
+            float,
+            float,
+            MutableVector,
+            MutableVector,
+            MutableVector,
+        ],
+        None,
+    ]
+    parameters: tuple[Parameter, ...] = ()
+    state: tuple[float, ...] = ()
+
+
+def scales(values: Values, c: int) -> tuple[float, ...]:
+    """The constants that most shapes begin with: c amplitudes, then c frequencies."""
+    return (*numbers(values, "amplitude"), *numbers(values, "frequency"))
+
+
+def per_coordinate(values: Values, name: str, c: int) -> list[float]:
+    """A list of c numbers; zeros where it is empty.
+
+    Raises:
+        BadInput: of another length.
+    """
+    from fpt_ros.errors import BadInput
+
+    given = numbers(values, name)
+    if given and len(given) != c:
+        raise BadInput(f"trajectory_generator.{name}: {len(given)} numbers given, {c} needed")
+    return given or [0.0] * c

@@ -1,25 +1,36 @@
-"""q^N(t) = a sin(w t): the nominal trajectory of the van der Pol experiments (section 2.2)."""
+"""q^N(t) = offset + a sin(w t): the nominal trajectory of most experiments (section 2.2, ...)."""
 
 import math
 
 from fpt_ros.laws import MutableVector, Vector
-from fpt_ros.trajectories import Trajectory
+from fpt_ros.parameters import Parameter, Values
+from fpt_ros.trajectories import Trajectory, per_coordinate, scales
+
+PARAMETERS = (Parameter("offset", "middle of the motion, per coordinate; empty: zero", []),)
+
+
+def prepare(values: Values, c: int) -> tuple[float, ...]:
+    """Constants: amplitudes, frequencies [rad/s], offsets; c each."""
+    return (*scales(values, c), *per_coordinate(values, "offset", c))
 
 
 def nominal(
-    amplitude: Vector,
-    frequency: Vector,
+    constants: Vector,
+    state: MutableVector,
     t: float,
+    dt: float,
     out_q: MutableVector,
     out_v: MutableVector,
     out_a: MutableVector,
 ) -> None:
-    """Write a sin(w t), a w cos(w t), -a w^2 sin(w t), with w in [rad/s]."""
-    for i in range(len(amplitude)):
-        w = frequency[i]
-        out_q[i] = amplitude[i] * math.sin(w * t)
-        out_v[i] = amplitude[i] * w * math.cos(w * t)
-        out_a[i] = -w * w * out_q[i]
+    """Write offset + a sin(w t), a w cos(w t), -a w^2 sin(w t)."""
+    c = len(out_q)
+    for i in range(c):
+        a, w = constants[i], constants[c + i]
+        swing = a * math.sin(w * t)
+        out_q[i] = constants[2 * c + i] + swing
+        out_v[i] = a * w * math.cos(w * t)
+        out_a[i] = -w * w * swing
 
 
-SINE = Trajectory(nominal)
+SINE = Trajectory(prepare, nominal, PARAMETERS)

@@ -7,11 +7,13 @@ differentiable, period 4 s, close to a sine. ``frequency`` is a factor of time: 
 from functools import cache
 
 from fpt_ros.laws import MutableVector, Vector
-from fpt_ros.trajectories import Trajectory
+from fpt_ros.parameters import Values
+from fpt_ros.trajectories import Trajectory, scales
 
 SPACING = 0.5
 VALUES = (0.0, 0.7, 1.0, 0.7, 0.0, -0.7, -1.0, -0.7, 0.0)
 PERIOD = SPACING * (len(VALUES) - 1)
+LAST = len(VALUES) - 2
 
 
 @cache
@@ -24,25 +26,32 @@ def pieces() -> tuple[tuple[float, ...], ...]:
     return tuple(tuple(float(c) for c in piece[::-1]) for piece in spline.c.T)
 
 
+def prepare(values: Values, c: int) -> tuple[float, ...]:
+    """Constants: c amplitudes, c frequencies, then the pieces, four numbers each."""
+    return (*scales(values, c), *(x for piece in pieces() for x in piece))
+
+
 def nominal(
-    amplitude: Vector,
-    frequency: Vector,
+    constants: Vector,
+    state: MutableVector,
     t: float,
+    dt: float,
     out_q: MutableVector,
     out_v: MutableVector,
     out_a: MutableVector,
 ) -> None:
     """Spline scaled by ``amplitude`` [unit of the coordinate], time scaled by ``frequency``."""
-    cubics = pieces()
-    for i in range(len(amplitude)):
-        a, w = amplitude[i], frequency[i]
+    c = len(out_q)
+    for i in range(c):
+        a, w = constants[i], constants[c + i]
         phase = w * t % PERIOD
-        index = min(int(phase / SPACING), len(cubics) - 1)
+        index = min(int(phase / SPACING), LAST)
         s = phase - index * SPACING
-        c0, c1, c2, c3 = cubics[index]
+        at = 2 * c + 4 * index
+        c0, c1, c2, c3 = constants[at], constants[at + 1], constants[at + 2], constants[at + 3]
         out_q[i] = a * (c0 + s * (c1 + s * (c2 + s * c3)))
         out_v[i] = a * w * (c1 + s * (2.0 * c2 + s * (3.0 * c3)))
         out_a[i] = a * w * w * (2.0 * c2 + s * (6.0 * c3))
 
 
-SPLINE = Trajectory(nominal)
+SPLINE = Trajectory(prepare, nominal)

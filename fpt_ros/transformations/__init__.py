@@ -12,6 +12,8 @@ from dataclasses import dataclass
 from fpt_ros.laws import MutableVector, Vector
 from fpt_ros.parameters import Parameter, Values
 
+DEFORM = "vvvv-"
+
 TINY = 1e-12
 """Response errors below this norm leave r unchanged: h/||h|| means nothing there."""
 
@@ -30,12 +32,18 @@ class Transformation:
 
     Attributes:
         parameters: under the thesis's letters (A, B, D, K).
-        prepare: checked parameters -> constants, fixed points among them; raises BadInput where the
-            parameters give none.
+        prepare: checked parameters -> constants, the gain A first, fixed points among them; raises
+            BadInput where the parameters give none.
         deform: ``deform(constants, r, h, out)`` writes the next r. All vectors are over the
             controlled coordinates. NaN where it is not defined.
+        slope: constants -> what the step is close to: r' = r + A slope h for a small response
+            error h. The range of A in which the iteration contracts follows from it.
+        step_limit: constants -> the largest step that the transformation can make towards the
+            solution (inf: none), for A of the sign that converges.
     """
 
     parameters: tuple[Parameter, ...]
     prepare: Callable[[Values], tuple[float, ...]]
     deform: Callable[[Vector, Vector, Vector, MutableVector], None]
+    slope: Callable[[Vector], float]
+    step_limit: Callable[[Vector], float]

@@ -9,7 +9,7 @@ Linearised, r' = r + K A B h: with K = -1e5, B = 1, A = 1e-6 a step of -0.1 h. |
 larger than any response that occurs.
 """
 
-from fpt_ros.laws import MutableVector, Vector, norm
+from fpt_ros.laws import MutableVector, Vector, helper, norm
 from fpt_ros.parameters import Parameter, Values, number, word
 from fpt_ros.transformations import FORM, TINY, Transformation
 
@@ -27,6 +27,7 @@ def prepare(values: Values) -> tuple[float, ...]:
     return number(values, "A"), number(values, "B"), number(values, "K"), signed
 
 
+@helper
 def sigma(x: float) -> float:
     """The sigmoid x / (1 + |x|) of (2.13)."""
     return x / (1.0 + abs(x))
@@ -34,7 +35,7 @@ def sigma(x: float) -> float:
 
 def deform(constants: Vector, r: Vector, h: Vector, out: MutableVector) -> None:
     """(2.13) or (2.22)."""
-    A, B, K, signed = constants
+    A, B, K, signed = constants[0], constants[1], constants[2], constants[3]
     if signed:
         for i in range(len(r)):
             out[i] = (r[i] + K) * (1.0 + B * sigma(A * h[i])) - K
@@ -45,4 +46,14 @@ def deform(constants: Vector, r: Vector, h: Vector, out: MutableVector) -> None:
         out[i] = (1.0 + b) * r[i] + (b * K * h[i] / size if size >= TINY else 0.0)
 
 
-RFPT = Transformation(PARAMETERS, prepare, deform)
+def slope(constants: Vector) -> float:
+    """K B, as r' = r + K A B h for |r| << |K|."""
+    return constants[1] * constants[2]
+
+
+def step_limit(constants: Vector) -> float:
+    """|B K|: sigma stays below 1."""
+    return abs(constants[1] * constants[2])
+
+
+RFPT = Transformation(PARAMETERS, prepare, deform, slope, step_limit)

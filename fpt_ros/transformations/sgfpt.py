@@ -15,7 +15,7 @@ repulsive fixed point, as section 3.3 asks.
 import math
 
 from fpt_ros.errors import BadInput
-from fpt_ros.laws import MutableVector, Vector, norm
+from fpt_ros.laws import MutableVector, Vector, helper, norm
 from fpt_ros.parameters import Parameter, Values, flag, number, word
 from fpt_ros.transformations import FORM, TINY, Transformation
 
@@ -54,6 +54,7 @@ def prepare(values: Values) -> tuple[float, ...]:
     return A, K, D, attractive, least, 1.0 if word(values, "form") == "signed" else 0.0
 
 
+@helper
 def generator(K: float, D: float, x: float) -> float:
     """F(x) = atanh(tanh x - K) + D; NaN outside its domain."""
     y = math.tanh(x) - K
@@ -62,8 +63,9 @@ def generator(K: float, D: float, x: float) -> float:
 
 def deform(constants: Vector, r: Vector, h: Vector, out: MutableVector) -> None:
     """(3.1) or (3.5)."""
-    A, K, D, attractive, least, signed = constants
-    if signed:
+    A, K, D = constants[0], constants[1], constants[2]
+    attractive, least = constants[3], constants[4]
+    if constants[5]:
         for i in range(len(r)):
             x = max(A * h[i] + attractive, least)
             out[i] = r[i] + (generator(K, D, x) - attractive)
@@ -77,4 +79,17 @@ def deform(constants: Vector, r: Vector, h: Vector, out: MutableVector) -> None:
         out[i] = r[i] + step * h[i]
 
 
-SGFPT = Transformation(PARAMETERS, prepare, deform)
+def slope(constants: Vector) -> float:
+    """F'(x*) = (1 - tanh^2 x*) / (1 - (tanh x* - K)^2)."""
+    y = math.tanh(constants[3])
+    return (1.0 - y * y) / (1.0 - (y - constants[1]) * (y - constants[1]))
+
+
+def step_limit(constants: Vector) -> float:
+    """x* - F(least argument): the guard's edge, or infinite without a guard."""
+    if constants[4] == -math.inf:
+        return math.inf
+    return constants[3] - generator(constants[1], constants[2], constants[4])
+
+
+SGFPT = Transformation(PARAMETERS, prepare, deform, slope, step_limit)

@@ -1,4 +1,4 @@
-"""Tuning laws, one a file: how the model's coefficients follow what was observed."""
+"""Tuning laws, one a file: how what was observed changes the deformer's parameters."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -6,22 +6,63 @@ from dataclasses import dataclass
 from fpt_ros.laws import MutableVector, Vector
 from fpt_ros.parameters import Parameter, Values
 
+UPDATE = "vvfvvvvvv-"
+
+COEFFICIENTS = "coefficients"
+"""What most laws tune: the coefficients of the approximate model."""
+
+GAIN = "A"
+"""The gain of the transformation."""
+
+WEIGHTS = "weights"
+"""Diagonal weights of the response error, one per controlled coordinate (thesis (4.10))."""
+
 
 @dataclass(frozen=True)
-class Identification:
-    """Identification of coefficients in which the model is linear.
+class TuningLaw:
+    """A law that tunes the model's coefficients, the gain A, or the weights of the response error.
 
-    The modelling error E = Q - Y(q, q', response) Theta^ is known in every cycle: the effort that
-    was exerted less the one that the model would have given for what was observed. In the lack of
-    disturbances E = Y (Theta - Theta^) (thesis (2.5), (2.12), (2.21)).
+    The modelling error E = Q - Y(q, q', response) Theta^ of a cycle is known in the next one: the
+    effort that was exerted less the one that the model would have given for what was observed. In
+    the lack of disturbances E = Y (Theta - Theta^) (thesis (2.5), (2.12), (2.21)).
 
     Attributes:
         parameters: rate, regularisation, ...
         prepare: checked parameters -> constants.
-        rate: ``rate(constants, Y, E, out)`` writes d/dt Theta^ [1/s]. Y has len(E) rows of len(out)
-            numbers, row after row.
+        update: ``update(constants, memory, dt, values, Y, E, tracking, h, r)`` changes ``values``
+            (what is tuned) by one cycle of dt [s]. Of the cycle before: Y has len(E) rows of
+            len(values) numbers, row after row; ``tracking`` holds e, e' and the combined error s,
+            each for the c controlled coordinates; r is the deformed response of all coordinates,
+            NaN where not controlled. Of this cycle: h, the response error of the controlled ones.
+        tunes: ``coefficients``, ``A`` or ``weights``.
+        memory: ``memory(constants, size, rows, n)`` -> number of state variables, for ``size``
+            tuned values, ``rows`` of Y and n coordinates.
+        reference: Y is taken at the reference velocity and the desired response (Slotine and Li)
+            instead of the motion and the response observed.
+        desired: the law needs the desired response of this cycle, or tracking errors.
+        start: initial value of what is tuned, where it is not coefficients.
+        signals: names of the first memory variables that are published beside what is tuned.
     """
 
     parameters: tuple[Parameter, ...]
     prepare: Callable[[Values], tuple[float, ...]]
-    rate: Callable[[Vector, Vector, Vector, MutableVector], None]
+    update: Callable[
+        [
+            Vector,
+            MutableVector,
+            float,
+            MutableVector,
+            Vector,
+            Vector,
+            Vector,
+            Vector,
+            Vector,
+        ],
+        None,
+    ]
+    tunes: str = COEFFICIENTS
+    memory: Callable[[Vector, int, int, int], int] = lambda constants, size, rows, n: 0
+    reference: bool = False
+    desired: bool = False
+    start: float = 0.0
+    signals: tuple[str, ...] = ()

@@ -7,7 +7,7 @@ For a model of one row. m^ = 0 is absorbing: a disturbance that drags m^ there s
 
 from fpt_ros.laws import MutableVector, Vector
 from fpt_ros.parameters import Parameter, Values, number
-from fpt_ros.tuning import Identification
+from fpt_ros.tuning import TuningLaw
 
 PARAMETERS = (
     Parameter("alpha", "rate at which the known part of the error decays", 1.0, unit="1/s"),
@@ -20,15 +20,25 @@ def prepare(values: Values) -> tuple[float, ...]:
     return number(values, "alpha"), number(values, "epsilon")
 
 
-def rate(constants: Vector, Y: Vector, error: Vector, out: MutableVector) -> None:
-    """(2.11) for the first row of Y."""
-    alpha, epsilon = constants
+def update(
+    constants: Vector,
+    memory: MutableVector,
+    dt: float,
+    values: MutableVector,
+    Y: Vector,
+    error: Vector,
+    tracking: Vector,
+    h: Vector,
+    r: Vector,
+) -> None:
+    """(2.11) for the first row of Y, by an Euler step."""
+    alpha, epsilon = constants[0], constants[1]
     square = epsilon
-    for j in range(len(out)):
+    for j in range(len(values)):
         square += Y[j] * Y[j]
     factor = alpha * error[0] / square
-    for j in range(len(out)):
-        out[j] = factor * Y[j]
+    for j in range(len(values)):
+        values[j] = values[j] + dt * (factor * Y[j])
 
 
-PROJECTION = Identification(PARAMETERS, prepare, rate)
+PROJECTION = TuningLaw(PARAMETERS, prepare, update)

@@ -4,6 +4,19 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 from fpt_ros.laws import MutableVector, Vector
+from fpt_ros.parameters import Parameter, Values
+
+UPDATE = "vvfvvvvv-"
+
+ORDER = Parameter(
+    "order",
+    "derivative that the plant answers with: 2 acceleration, 1 velocity, 0 value",
+    2,
+    minimum=0,
+    maximum=2,
+    live=False,
+)
+"""A parameter of the denoiser: what the observed response is."""
 
 
 @dataclass(frozen=True)
@@ -11,14 +24,29 @@ class Filter:
     """A causal estimator of position, velocity and response of n coordinates.
 
     Attributes:
-        state_size: n -> number of state variables.
-        start: ``start(state, q, v)`` with the first sample; no response is known yet.
-        update: ``update(state, dt, q, v, out_q, out_v, out_response)`` with the sample dt [s] after
-            the last one.
+        prepare: ``prepare(values, n, dt)``: checked parameters -> constants, for samples dt [s]
+            apart.
+        state_size: ``state_size(constants, n)`` -> number of state variables.
+        start: ``start(constants, state, q, v)`` with the first sample; no response is known yet.
+        update: ``update(constants, state, dt, q, v, out_q, out_v, out_response)`` with the sample
+            dt [s] after the last one.
+        parameters: its own, beside ``order``.
     """
 
-    state_size: Callable[[int], int]
-    start: Callable[[MutableVector, Vector, Vector], None]
+    prepare: Callable[[Values, int, float], tuple[float, ...]]
+    state_size: Callable[[Vector, int], int]
+    start: Callable[[Vector, MutableVector, Vector, Vector], None]
     update: Callable[
-        [MutableVector, float, Vector, Vector, MutableVector, MutableVector, MutableVector], None
+        [
+            Vector,
+            MutableVector,
+            float,
+            Vector,
+            Vector,
+            MutableVector,
+            MutableVector,
+            MutableVector,
+        ],
+        None,
     ]
+    parameters: tuple[Parameter, ...] = ()

@@ -1,0 +1,117 @@
+"""Sums of few sinusoids on a constant: a core of ``auto``.
+
+Greedy: the largest peak of the 8 times zero-padded spectrum of the residual becomes a tone, then
+Gauss-Newton steps on the frequencies of all tones (amplitudes by least squares in the same system),
+until a tone lowers the residual by less than BIC asks: 3 ln n per tone, in n ln(RSS).
+"""
+
+import math
+from dataclasses import dataclass, field
+
+import numpy as np
+import scipy.fft
+from numba import njit
+from numpy.typing import NDArray
+
+from fpt_ros.denoising.offline import Signal
+
+PADDING = 8
+STEPS = 6
+MOST = 16
+"""Tones at most: what needs more is no sum of few sinusoids."""
+BIC = 3.0
+DF = 5.0
+"""Degrees of freedom of a tone: amplitude, phase, frequency, and 2 for the choice of its peak."""
+
+
+@njit(cache=True)
+def _fit(z: Signal, omega: Signal, steps: int) -> Signal:
+    """Gauss-Newton on ``omega`` [rad/sample], changed in place; returns the fitted sum.
+
+    Columns: 1, and for each tone cos, sin and the derivative by frequency. Time runs from the
+    middle of the record to keep the columns nearly orthogonal.
+    """
+    n, k = len(z), len(omega)
+    middle = 0.5 * (n - 1)
+    f = np.zeros(n)
+    amplitude = np.zeros((k, 2))
+    for step in range(steps + 1):
+        wide = step > 0 and step < steps + 1
+        width = 3 if wide else 2
+        size = 1 + width * k
+        columns = np.empty((size, n))
+        columns[0] = 1.0
+        for j in range(k):
+            c, s = math.cos(omega[j]), math.sin(omega[j])
+            x, y = math.cos(-omega[j] * middle), math.sin(-omega[j] * middle)
+            row = 1 + width * j
+            for i in range(n):
+                columns[row, i] = x
+                columns[row + 1, i] = y
+                if wide:
+                    time = (i - middle) / middle
+                    columns[row + 2, i] = time * (amplitude[j, 1] * x - amplitude[j, 0] * y)
+                x, y = x * c - y * s, x * s + y * c
+        gram = columns @ columns.T
+        for i in range(size):
+            gram[i, i] += 1e-9 * n
+        solution = np.linalg.solve(gram, columns @ z)
+        for j in range(k):
+            row = 1 + width * j
+            amplitude[j, 0], amplitude[j, 1] = solution[row], solution[row + 1]
+            if wide and step < steps:
+                change = solution[row + 2] / middle
+                limit = 0.5 * math.pi / n
+                omega[j] += min(max(change, -limit), limit)
+                omega[j] = min(max(omega[j], 0.25 * math.pi / n), math.pi)
+        if step == steps:
+            f = solution @ columns
+    return f
+
+
+def _peak(residual: Signal) -> float:
+    """Frequency [rad/sample] of the largest peak of the zero-padded spectrum."""
+    n = scipy.fft.next_fast_len(PADDING * len(residual), real=True)
+    spectrum = np.abs(scipy.fft.rfft(residual - residual.mean(), n))
+    return float(2.0 * np.pi * max(int(np.argmax(spectrum)), PADDING // 4) / n)
+
+
+def fit(
+    z: Signal, omega: NDArray[np.float64], most: int = MOST
+) -> tuple[Signal, NDArray[np.float64]]:
+    """The sum of tones, shape (n,), and their frequencies [rad/sample].
+
+    Args:
+        z: samples, shape (n,).
+        omega: frequencies to begin with; more are added while BIC allows.
+        most: tones at most.
+    """
+    n = len(z)
+    z = np.ascontiguousarray(z)
+    tones = omega.copy()
+    f = _fit(z, tones, 2) if len(tones) else np.full(n, z.mean())
+    rss = float(np.sum((z - f) ** 2))
+    while len(tones) < min(most, n // 8):
+        more = np.append(tones, _peak(z - f))
+        g = _fit(z, more, STEPS)
+        lower = float(np.sum((z - g) ** 2))
+        if not 0.0 < lower or n * math.log(rss / lower) < BIC * math.log(n):
+            break
+        tones, f, rss = more, g, lower
+    return f, tones
+
+
+@dataclass
+class Tones:
+    """The core with the memory of its tones, so that every round of EM begins where the last ended.
+
+    Attributes:
+        omega: frequencies of the tones [rad/sample].
+    """
+
+    omega: NDArray[np.float64] = field(default_factory=lambda: np.empty(0))
+
+    def smooth(self, z: Signal, sigma: float) -> tuple[Signal, float]:
+        """The sum of tones, shape (n,), and its degrees of freedom."""
+        f, self.omega = fit(z, self.omega)
+        return f, 1.0 + DF * len(self.omega)
