@@ -22,7 +22,7 @@ def summary(run: Run) -> dict[str, object]:
 
     Lengths of time in [s], errors and efforts in the plant's units. ``tracking`` holds, for each
     controlled coordinate, rms and largest size of e = q^N - q, over all cycles and over those with
-    t >= settle_time; a cycle in which the coordinate is not controlled does not count. ``chatter``
+    t >= settle_time; with time sharing the turns of the others count too. ``chatter``
     is the mean of ||r_k - r_(k-1)|| over k >= 1 (section 3.2.2 of the thesis: it jumps where the
     control begins to oscillate). A number that does not exist is ``None``, never NaN.
     """

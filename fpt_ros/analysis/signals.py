@@ -12,10 +12,15 @@ from numpy.typing import NDArray
 
 from fpt_ros import registry
 from fpt_ros.errors import BadInput
+from fpt_ros.loop.nominal import sample
 from fpt_ros.loop.run import Array, Run
+from fpt_ros.loop.trajectory_generator import TrajectoryGenerator
 from fpt_ros.messages.frames import SECOND
 from fpt_ros.parameters import Value
 from fpt_ros.plants import Plant
+
+CONTROLLER_ONLY = ("K_D",)
+"""Parameters of models that no plant has: gains of a feedback of their own."""
 
 
 @dataclass(frozen=True)
@@ -36,7 +41,7 @@ class Motion:
 
     @property
     def error(self) -> Array:
-        """Tracking error, nominal minus realised; NaN where the coordinate was not controlled."""
+        """Tracking error, nominal minus realised; with time sharing, in all turns."""
         return self.nominal - self.position
 
 
@@ -105,13 +110,28 @@ def motion(run: Run, coordinate: str) -> Motion:
     if coordinate not in desired.names or coordinate not in measured.names:
         return Motion(*[np.empty(0)] * 5)
     stamps, i, j = np.intersect1d(desired.stamps, measured.stamps, return_indices=True)
+    nominal = desired.column("positions", coordinate)[i]
+    nominal_velocity = desired.column("velocities", coordinate)[i]
+    time = seconds(run, stamps)
+    away = np.isnan(nominal)
+    if parameter(run, "trajectory_generator", "time_sharing") and away.any():
+        nominal, nominal_velocity = nominal.copy(), nominal_velocity.copy()
+        nominal[away], nominal_velocity[away] = _nominal(run, coordinate, time[away])
     return Motion(
-        seconds(run, stamps),
-        desired.column("positions", coordinate)[i],
+        time,
+        nominal,
         measured.column("position", coordinate)[j],
-        desired.column("velocities", coordinate)[i],
+        nominal_velocity,
         measured.column("velocity", coordinate)[j],
     )
+
+
+def _nominal(run: Run, coordinate: str, time: Array) -> tuple[Array, Array]:
+    """Nominal position and velocity while it is another coordinate's turn to be controlled."""
+    stage = TrajectoryGenerator(run.parameters[TrajectoryGenerator.name])
+    at = stage.controlled.index(coordinate)
+    motions = sample(stage, time.tolist())
+    return np.array([m[0][at] for m in motions]), np.array([m[1][at] for m in motions])
 
 
 def realised_response(run: Run, coordinate: str) -> tuple[Array, Array]:
@@ -176,8 +196,12 @@ def exact_coefficients(run: Run) -> dict[str, float]:
         model = registry.model(str(parameter(run, "fpt_deformer", "model")))
     except BadInput:
         return {}
-    exact = [parameter_number(run, "plant_simulator", f"exact.{p.name}") for p in model.parameters]
-    known = [value for value in exact if value is not None]
-    if not known or len(known) < len(exact):
-        return {}
-    return dict(zip(model.coefficient_names, model.coefficients(known), strict=True))
+    values = []
+    for p in model.parameters:
+        exact = parameter_number(run, "plant_simulator", f"exact.{p.name}")
+        if exact is None and p.name not in CONTROLLER_ONLY:
+            return {}
+        own = parameter_number(run, "fpt_deformer", f"approximate.{p.name}")
+        values.append((exact if exact is not None else own) or 0.0)
+    coefficients = model.coefficients(values)
+    return dict(zip(model.coefficient_names, coefficients, strict=False)) if values else {}

@@ -34,9 +34,7 @@ def scales(values: Values, seed: int, cycles: int) -> tuple[float, ...]:
     return number(values, "disturbance.amplitude"), number(values, "disturbance.frequency")
 
 
-def _none(
-    constants: Vector, state: MutableVector, t: float, h: float, q: float, v: float
-) -> float:
+def _none(constants: Vector, state: MutableVector, t: float, h: float, q: float, v: float) -> float:
     return 0.0
 
 

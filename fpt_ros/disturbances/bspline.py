@@ -12,9 +12,7 @@ from fpt_ros.laws import MutableVector, Vector
 CONTROL_POINTS = tuple(c / 70.0 for c in (0, 30, 60, 20, -40, -70, -30, 10, 50, 40, -20, -50))
 
 
-def force(
-    constants: Vector, state: MutableVector, t: float, h: float, q: float, v: float
-) -> float:
+def force(constants: Vector, state: MutableVector, t: float, h: float, q: float, v: float) -> float:
     """Force at t [s]; ``frequency`` in knots per second."""
     amplitude, frequency = constants[0], constants[1]
     n = len(CONTROL_POINTS)

@@ -28,9 +28,7 @@ def prepare(values: Values, seed: int, cycles: int) -> tuple[float, ...]:
     return (*scales(values, seed, cycles), *own)
 
 
-def force(
-    constants: Vector, state: MutableVector, t: float, h: float, q: float, v: float
-) -> float:
+def force(constants: Vector, state: MutableVector, t: float, h: float, q: float, v: float) -> float:
     """Friction force at the bristles' deflection z = state[0], which is then advanced."""
     sigma0, sigma1, sigma2 = constants[2], constants[3], constants[4]
     coulomb, static, x = constants[5], constants[6], v / constants[7]

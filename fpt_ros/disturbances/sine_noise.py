@@ -23,9 +23,7 @@ def prepare(values: Values, seed: int, cycles: int) -> tuple[float, ...]:
     return (*scales(values, seed, cycles), 1.0 / number(values, "dt"), *noise)
 
 
-def force(
-    constants: Vector, state: MutableVector, t: float, h: float, q: float, v: float
-) -> float:
+def force(constants: Vector, state: MutableVector, t: float, h: float, q: float, v: float) -> float:
     """Force at t [s]; the amplitude scales the sine, not the noise."""
     cycle = int(t * constants[2] + 0.5) % (len(constants) - 3)
     return constants[0] * math.sin(constants[1] * t) + constants[3 + cycle]

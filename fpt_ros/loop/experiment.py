@@ -263,7 +263,9 @@ def _check_fit(loop: Loop) -> None:
     name = word(loop.plant.values, "plant")
     given = loop.denoiser.values["order"]
     if given != order:
-        raise BadInput(f"denoiser.order: {given} given, the plant {name} answers with order {order}")
+        raise BadInput(
+            f"denoiser.order: {given} given, the plant {name} answers with order {order}"
+        )
     relaxation = loop.trajectory.relaxation
     if relaxation.order != order:
         fitting = [each for each, one in RELAXATIONS.items() if one.order == order]

@@ -247,9 +247,7 @@ class FptDeformer(Stage):
         self._check(t, q, h, deformed, effort)
         return Command(stamp, model.coordinates, deformed, effort)
 
-    def _check(
-        self, t: float, q: Vector, h: Vector, deformed: Vector, effort: Vector
-    ) -> None:
+    def _check(self, t: float, q: Vector, h: Vector, deformed: Vector, effort: Vector) -> None:
         for at in self._where:
             if not math.isfinite(deformed[at]):
                 size = math.sqrt(sum([x * x for x in h]))

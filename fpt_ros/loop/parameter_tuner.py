@@ -204,7 +204,7 @@ class ParameterTuner(Stage):
         c = len(self.controlled)
         if law.tunes == COEFFICIENTS:
             parameters = group(self.values, "approximate", self._model.parameters)
-            start = list(self._model.coefficients(parameters))
+            start = list(self._model.coefficients(parameters))[: len(self._coefficients)]
             self.tuned: Names = self._coefficients
         elif law.tunes == GAIN:
             start, self.tuned = [law.start], (GAIN,)
@@ -226,9 +226,7 @@ class ParameterTuner(Stage):
             at += size
         return tuple(found)
 
-    def step(
-        self, estimate: StateEstimate, *rest: "Desired | Command | None"
-    ) -> Tuning:
+    def step(self, estimate: StateEstimate, *rest: "Desired | Command | None") -> Tuning:
         """What is tuned in cycle k; the initial values in the first cycle, without a command.
 
         ``rest``: the desired response of the cycle where the law needs it, and the command of the

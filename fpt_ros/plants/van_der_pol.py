@@ -42,9 +42,7 @@ def response(theta: Vector, q: Vector, v: Vector, effort: Vector, out: MutableVe
     out[0] = (effort[0] - _spring_and_damper(theta, q[0], v[0])) / theta[0]
 
 
-def effort(
-    theta: Vector, q: Vector, v: Vector, r: Vector, s: Vector, out: MutableVector
-) -> None:
+def effort(theta: Vector, q: Vector, v: Vector, r: Vector, s: Vector, out: MutableVector) -> None:
     """Force F that should cause q'' = r (2.3)."""
     out[0] = theta[0] * r[0] + _spring_and_damper(theta, q[0], v[0])
 

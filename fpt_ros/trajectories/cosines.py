@@ -12,7 +12,9 @@ from fpt_ros.trajectories import Trajectory, per_coordinate, scales
 PARAMETERS = (
     Parameter("offset", "where it begins, per coordinate; empty: zero", []),
     Parameter("second_amplitude", "of the second tone, per coordinate; empty: zero", []),
-    Parameter("second_frequency", "of the second tone, per coordinate; empty: zero", [], unit="1/s"),
+    Parameter(
+        "second_frequency", "of the second tone, per coordinate; empty: zero", [], unit="1/s"
+    ),
 )
 
 

@@ -20,22 +20,23 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
+from fpt_ros.denoising.streaming import ORDER, Filter
 from fpt_ros.errors import BadInput
 from fpt_ros.laws import MutableVector, Vector
-from fpt_ros.parameters import Parameter, Values, number, numbers
+from fpt_ros.parameters import Parameter, Values, integer, number, numbers
 
 PARAMETERS = (
     Parameter("sigma", "standard deviation of the position noise", 1e-3, above=0.0),
-    Parameter(
-        "states", "states of each filter: 3 is constant acceleration", [3.0, 4.0, 5.0, 6.0]
-    ),
+    Parameter("states", "states of each filter: 3 is constant acceleration", [3.0, 4.0, 5.0, 6.0]),
     Parameter(
         "densities",
         "spectral density of the white noise that drives each filter's highest derivative",
         [1e2, 1e4, 1e6, 1e8],
         above=0.0,
     ),
-    Parameter("forgetting", "what the log-likelihood keeps a sample", 0.98, minimum=0.0, maximum=1.0),
+    Parameter(
+        "forgetting", "what the log-likelihood keeps a sample", 0.98, minimum=0.0, maximum=1.0
+    ),
     Parameter("gate", "standard deviations beyond which a sample is an impulse", 4.0, above=2.0),
     Parameter("settling", "time without gating at the start", 0.8, unit="s", minimum=0.0),
 )
@@ -46,9 +47,9 @@ REJECTIONS = 4
 RECOVERED = 2.0
 """Standard deviations within which the prediction has found the motion again."""
 
-LEAST_STATES, MOST_STATES = 3, 6
+MOST_STATES = 6
 
-_HEADER = 7
+_HEADER = 8
 _MEMBER = 4
 
 
@@ -101,10 +102,11 @@ def prepare(values: Values, n: int, dt: float) -> tuple[float, ...]:
     """Constants: what all members share, then (states, S, 1/S, log S, gains) of each.
 
     S is the variance of the innovation. Shared: members, samples without gating, forgetting,
-    gate^2, RECOVERED^2, 1/dt and 2/dt^2.
+    gate^2, RECOVERED^2, 1/dt, the order of the response and its scale.
     """
     sigma, gate = number(values, "sigma"), number(values, "gate")
     states, densities = numbers(values, "states"), numbers(values, "densities")
+    order = integer(values, ORDER.name)
     if not states or len(states) != len(densities):
         raise BadInput(
             f"states has {len(states)} entries and densities {len(densities)}: each filter of the "
@@ -117,12 +119,14 @@ def prepare(values: Values, n: int, dt: float) -> tuple[float, ...]:
         gate * gate,
         RECOVERED * RECOVERED,
         1.0 / dt,
-        2.0 / (dt * dt),
+        float(order),
+        (1.0, 1.0 / dt, 2.0 / (dt * dt))[order],
     ]
+    least = max(2, order + 1)
     for size, density in zip(states, densities, strict=True):
-        if size not in range(LEAST_STATES, MOST_STATES + 1):
+        if size not in range(least, MOST_STATES + 1):
             raise BadInput(
-                f"a filter of {size:g} states: it takes an integer from {LEAST_STATES} to "
+                f"states: {size:g} is not valid, a filter takes an integer from {least} to "
                 f"{MOST_STATES}"
             )
         gains = steady_gains(int(size), density, sigma, dt)
@@ -170,6 +174,7 @@ def update(
     """One step of every member, and their weighted mean."""
     members = int(constants[0])
     forgetting, gate, recovered = constants[2], constants[3], constants[4]
+    order = int(constants[6])
     gating = state[0] >= constants[1]
     if not gating:
         state[0] += 1.0
@@ -209,9 +214,12 @@ def update(
             total += weight
             position += weight * state[x]
             velocity += weight * state[x + 1]
-            response += weight * state[x + 2]
+            response += weight * state[x + order]
             x += states + 2
             at += _MEMBER + states
         out_q[c] = position / total
         out_v[c] = velocity / total * constants[5]
-        out_response[c] = response / total * constants[6]
+        out_response[c] = response / total * constants[7]
+
+
+KALMAN_BANK = Filter(prepare, state_size, start, update, PARAMETERS)
