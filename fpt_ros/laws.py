@@ -9,8 +9,9 @@ wrong.
 """
 
 import math
+from array import array
 from collections.abc import Callable, MutableSequence, Sequence
-from typing import Any, TypeVar
+from typing import Any, TypeVar, cast
 
 Vector = Sequence[float]
 """Numbers that are only read: one per coordinate, or a law's constants in their order."""
@@ -21,10 +22,8 @@ MutableVector = MutableSequence[float]
 NOT_CONTROLLED = math.nan
 """Marks, in a vector over all coordinates, those that nobody prescribes in this cycle."""
 
-Signature = tuple[str, ...]
-"""Kinds of a compiled function's arguments, its result last: ``v`` vector, ``f`` number, ``i``
-integer, ``-`` nothing; names of other signatures are functions.
-"""
+# Signatures of compiled functions are words, a letter an argument and the result last: v vector,
+# f number, i integer, w vector of integers, m matrix, - nothing.
 
 Function = TypeVar("Function", bound=Callable[..., Any])
 
@@ -36,6 +35,11 @@ def helper(function: Function) -> Function:
     """Mark a function that laws may call: it is compiled with them. It stays what it is."""
     HELPERS.append(function)
     return function
+
+
+def part(state: "array[float]", start: int, end: int | None = None) -> MutableVector:
+    """Some of the numbers of a state, to be read and written where they stand."""
+    return cast(MutableVector, memoryview(state)[start:end])
 
 
 @helper

@@ -21,6 +21,7 @@ from fpt_ros.plants import EFFORT, REGRESSOR, RESPONSE
 from fpt_ros.trajectories import NOMINAL
 from fpt_ros.transformations import DEFORM
 from fpt_ros.tuning import UPDATE
+zeros: Any = np.zeros
 
 FUNCTIONS = (
     streaming.UPDATE,
@@ -37,10 +38,10 @@ FUNCTIONS = (
 
 ARGUMENTS = (
     "iii"  # first, last, cycle_time
-    + "iiiiiiiii"  # has_tuner, wants, reference, guards, kind, tuned, size, factor, adapts
-    + "iiiii"  # delay, hold, hit, order, substeps
-    + "fffffffff"  # dt, lam, tune_from, adaptive_from, gain, sigma_q, sigma_v, h, limit
-    + "ww"  # where, tuned_where
+    "iiiiiiiii"  # has_tuner, wants, reference, guards, kind, tuned, size, factor, adapts
+    "iiiii"  # delay, hold, hit, order, substeps
+    "fffffffff"  # dt, lam, tune_from, adaptive_from, gain, sigma_q, sigma_v, h, limit
+    "ww"  # where, tuned_where
     + "v" * 12  # constants
     + "v" * 12  # states
     + "m" * 13  # the messages' vectors, a row a cycle
@@ -133,17 +134,11 @@ def run(
     """
     n, c = js_position.shape[1], d_position.shape[1]
     rows = len(command) - 2 * n  # work vectors of Y: its rows
-    w, a, q, v, acting, full = (
-        np.zeros(n),
-        np.zeros(n),
-        np.zeros(n),
-        np.zeros(n),
-        np.zeros(n),
-        np.zeros(n),
-    )
-    r_c, h_c, out_c = np.zeros(c), np.zeros(c), np.zeros(c)
-    Y, error, h_tuner = np.zeros(rows * len(values)), np.zeros(rows), np.zeros(len(tuned_where))
-    none = np.zeros(0)
+    w, a, q = zeros(n), zeros(n), zeros(n)
+    v, acting, full = zeros(n), zeros(n), zeros(n)
+    r_c, h_c, out_c = zeros(c), zeros(c), zeros(c)
+    Y, error, h_tuner = zeros(rows * len(values)), zeros(rows), zeros(len(tuned_where))
+    none = zeros(0)
     for k in range(first, last_cycle):
         t = k * cycle_time / 1000000000
         measure(plant, sigma_q, sigma_v, noise, k, js_position[k], js_velocity[k])

@@ -48,7 +48,7 @@ class Engine:
         self.done = 0
         plant, denoiser, trajectory = loop.plant, loop.denoiser, loop.trajectory
         tuner, deformer = loop.tuner, loop.deformer
-        n, c = len(plant.coordinates), len(trajectory.controlled)
+        n = len(plant.coordinates)
         self._names = {
             JOINT_STATES: plant.coordinates,
             STATE_ESTIMATE: plant.coordinates,

@@ -266,13 +266,13 @@ def _check_fit(loop: Loop) -> None:
         raise BadInput(
             f"denoiser.order: {given} given, the plant {name} answers with order {order}"
         )
-    relaxation = loop.trajectory.relaxation
+    relaxation, used = loop.trajectory.relaxation, loop.trajectory.values["error_relaxation"]
     if relaxation.order != order:
         fitting = [each for each, one in RELAXATIONS.items() if one.order == order]
         raise BadInput(
-            f"trajectory_generator.error_relaxation: {word(loop.trajectory.values, 'error_relaxation')}"
-            f" is for a response of order {relaxation.order}, the plant {name} answers with order "
-            f"{order}: {' or '.join(fitting)}"
+            f"trajectory_generator.error_relaxation: {used} is for a response of order "
+            f"{relaxation.order}, the plant {name} answers with order {order}: "
+            f"{' or '.join(fitting)}"
         )
     tunes = loop.tuner.active and loop.tuner.law.tunes == COEFFICIENTS
     if tunes and loop.tuner.values["model"] != loop.deformer.values["model"]:

@@ -80,8 +80,8 @@ def deform_response(
 ) -> None:
     """r_k = G(r_{k-d}, response to r_{k-d} - desired_k), and the model's effort for it.
 
-    Over the c controlled coordinates: weights, desired, s and the work vectors r, h, out; over all n:
-    the rest. A coordinate that is controlled anew gets the desired response itself.
+    Over the c controlled coordinates: weights, desired, s and the work vectors r, h, out; over all
+    n: the rest. A coordinate that is controlled anew gets the desired response itself.
 
     ``state``: the number of cycles, the last d deformed responses and the last d observed ones, n
     numbers each, in rings.

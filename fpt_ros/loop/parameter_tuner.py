@@ -1,11 +1,10 @@
 """Stage 4 of the cycle: what was observed corrects the model, the gain or the weights."""
 
-import math
 from collections.abc import Callable
 
 from fpt_ros import registry
 from fpt_ros.errors import BadInput
-from fpt_ros.laws import MutableVector, Vector, helper
+from fpt_ros.laws import MutableVector, Vector, helper, part
 from fpt_ros.loop.approximate_model import model_parameters
 from fpt_ros.loop.stage import REALTIME, Input, Stage, indices
 from fpt_ros.loop.tuned import FACTOR, PRECURSOR, WEIGHT
@@ -218,11 +217,11 @@ class ParameterTuner(Stage):
             self.state.extend(start + [0.0] * (sum(self._sizes) - len(start)))
             self.parts()[4][0] = 1.0
 
-    def parts(self) -> tuple[memoryview, ...]:
+    def parts(self) -> tuple[MutableVector, ...]:
         """The state: tuned values, the law's memory, last cycle, tracking, observer."""
-        whole, at, found = memoryview(self.state), 0, []
+        at, found = 0, []
         for size in self._sizes:
-            found.append(whole[at : at + size])
+            found.append(part(self.state, at, at + size))
             at += size
         return tuple(found)
 

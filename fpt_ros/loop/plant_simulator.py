@@ -6,7 +6,7 @@ from collections.abc import Callable
 
 from fpt_ros import registry
 from fpt_ros.errors import BadInput, Diverged
-from fpt_ros.laws import MutableVector, Vector, helper
+from fpt_ros.laws import MutableVector, Vector, helper, part
 from fpt_ros.loop.stage import REALTIME, Input, Stage
 from fpt_ros.messages.frames import SECOND, Command, JointStates, Names
 from fpt_ros.messages.topics import COMMAND, JOINT_STATES
@@ -199,10 +199,10 @@ class PlantSimulator(Stage):
             raise BadInput(f"{self.name}.{name}: {len(given)} numbers given, {n} needed ({names})")
         return given or [default] * n
 
-    def memory(self) -> tuple[memoryview, memoryview]:
+    def memory(self) -> tuple[MutableVector, MutableVector]:
         """The state in its two parts: of the plant, and of the disturbance."""
-        whole, split = memoryview(self.state), 3 * len(self.coordinates)
-        return whole[:split], whole[split:]
+        split = 3 * len(self.coordinates)
+        return part(self.state, 0, split), part(self.state, split)
 
     def noise(self) -> Vector:
         """Unit normal numbers: for each cycle n for the positions, then n for the velocities.

@@ -6,7 +6,7 @@ from collections.abc import Callable
 from fpt_ros import registry
 from fpt_ros.error_relaxation import RELAXATIONS, Prescription, combined_error
 from fpt_ros.errors import BadInput
-from fpt_ros.laws import MutableVector, Vector, helper
+from fpt_ros.laws import MutableVector, Vector, helper, part
 from fpt_ros.loop.stage import REALTIME, Input, Stage, indices
 from fpt_ros.messages.frames import SECOND, Desired, Names, StateEstimate
 from fpt_ros.messages.topics import DESIRED, STATE_ESTIMATE
@@ -149,10 +149,10 @@ class TrajectoryGenerator(Stage):
         if not self.state:
             self.state.extend([0.0] * (2 * c) + [-1.0, *self.trajectory.state])
 
-    def memory(self) -> tuple[memoryview, memoryview]:
+    def memory(self) -> tuple[MutableVector, MutableVector]:
         """The state in its two parts: of the trajectory, and of the errors."""
-        whole, split = memoryview(self.state), 2 * len(self.controlled) + 1
-        return whole[split:], whole[:split]
+        split = 2 * len(self.controlled) + 1
+        return part(self.state, split), part(self.state, 0, split)
 
     def locate(self, names: Names) -> tuple[int, ...]:
         """Where the controlled coordinates stand among ``names``."""

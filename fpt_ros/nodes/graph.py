@@ -202,6 +202,7 @@ class _Graph:
     async def _start(self, name: str, **descriptors: int) -> _Child:
         process = await asyncio.create_subprocess_exec(
             sys.executable,
+            "-P",  # what lies in the current folder is not ours
             "-m",
             f"fpt_ros.nodes.{name}",
             *self._arguments,

@@ -27,7 +27,7 @@ def coefficients(parameters: Vector) -> tuple[float, ...]:
 
 @helper
 def _uncontrolled(c: Vector, q: Vector) -> float:
-    """v' without control."""
+    """V' without control."""
     return q[0] - q[0] * q[0] * q[0] / 3.0 - q[1] + c[3]
 
 

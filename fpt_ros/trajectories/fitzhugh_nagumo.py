@@ -31,7 +31,7 @@ def nominal(
     out_v: MutableVector,
     out_a: MutableVector,
 ) -> None:
-    """v and v' at t; ``state`` is (v, w)."""
+    """V and v' at t; ``state`` is (v, w)."""
     scale, rate = constants[0], constants[1]
     a, tau, b, stimulus = constants[2], constants[3], constants[4], constants[5]
     v, w, h = state[0], state[1], rate * dt

@@ -1,6 +1,6 @@
 """The classical tuning of AIDC by Lyapunov's direct method (thesis (2.6) to (2.10)).
 
-With x = (e, e')^T, x' = A x + B, A = [[0, 1], [-Lambda^2, -2 Lambda]], and P from A^T P + P A = -Q::
+With x = (e, e')^T, x' = A x + B, A = [[0, 1], [-Lambda^2, -2 Lambda]] and A^T P + P A = -Q::
 
     Theta^_k' = (p12 e + p22 e') Y_k / (m^ R_k)                                            (2.10)
 

@@ -67,7 +67,7 @@ def projected(Z, a, eps):
     for z, value in zip(Z, a, strict=True):
         for other, other_value in zip(rows, known, strict=True):
             f = (z @ other) / (other @ other + eps)
-            z, value = z - f * other, value - f * other_value  # noqa: PLW2901
+            z, value = z - f * other, value - f * other_value
         rows.append(z)
         known.append(value)
         total += value / (z @ z + eps) * z

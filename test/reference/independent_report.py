@@ -22,8 +22,9 @@ def settled_rms(record: dict, settle: float) -> dict[str, float]:
 
 def chatter(record: dict, start: float = 0.0) -> float:
     """Mean of the norm of r_k - r_{k-1}, over the cycles k >= 1 from `start` on."""
-    steps = np.linalg.norm(np.diff(record["r"], axis=0), axis=1)
-    return float(np.nanmean(steps[record["t"][1:] >= start - 1e-9]))
+    steps = np.diff(record["r"], axis=0)
+    used = ~np.isnan(steps).all(axis=1) & (record["t"][1:] >= start - 1e-9)
+    return float(np.mean(np.sqrt(np.nansum(steps[used] ** 2, axis=1))))
 
 
 def report(name: str, run, variants, settle: float) -> None:

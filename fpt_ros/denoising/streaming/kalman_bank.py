@@ -1,9 +1,9 @@
 """A bank of steady-state Kalman filters, mixed by how likely each makes what is measured.
 
 Each member takes the motion for an integrated Wiener process: white noise of spectral density
-``densities[m]`` drives the derivative of order ``states[m]``. In the scaled states
-x_i = q^(i) dt^i / i! the transition is the Pascal matrix of small integers, applied by additions,
-and the gains are constant: they come from the Riccati equation once, in :func:`prepare`.
+``densities[m]`` drives the derivative of order ``states[m]``. In the scaled states x_i = q^(i) dt^i
+/ i! the transition is the Pascal matrix of small integers, applied by additions, and the gains are
+constant: they come from the Riccati equation once, in :func:`prepare`.
 
 The weights are the softmax of the members' log-likelihoods, of which the past is forgotten by a
 factor a sample. A sample off the prediction by more than ``gate`` standard deviations is an impulse
