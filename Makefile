@@ -24,6 +24,7 @@ $(READY): setup.py setup.cfg pyproject.toml requirements-ros.txt requirements-de
 	@$(PYTHON) -c 'import venv, ensurepip' 2>/dev/null || { echo "Python's venv is missing: apt-get install python3-venv"; exit 1; }
 	@test -x $(BIN)/python || $(PYTHON) -m venv $(VENV)
 	@echo "installing ROS 2 Jazzy and fpt_ros into $(VENV) (about a minute)"
+	@rm -rf *.egg-info  # an older one would hide the entry points of this one
 	@$(BIN)/python -m pip install --quiet --disable-pip-version-check -r requirements-ros.txt -r requirements-dev.txt -e .
 	@touch $@
 

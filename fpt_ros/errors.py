@@ -31,7 +31,7 @@ class Interrupted(FptError):
 class Diverged(RunFailed):
     """The loop was lost: a quantity left its limit or ceased to be finite.
 
-    Carries ``time`` [s], ``coordinate``, ``quantity``, ``value``, and the ``limit`` of the quantity
+    Carries ``time`` [s], ``cycle``, ``coordinate``, ``quantity``, ``value``, and the ``limit`` of the quantity
     (``inf``: none but to be finite).
     """
 
@@ -43,11 +43,28 @@ class Diverged(RunFailed):
         value: float,
         limit: float = math.inf,
         remedy: str = "",
+        cycle: int | None = None,
     ) -> None:
         self.time, self.coordinate = time, coordinate
         self.quantity, self.value, self.limit = quantity, value, limit
+        self.cycle, self.remedy = cycle, remedy
         why = f"is over its limit of {limit:g}" if math.isfinite(value) else "is not finite"
+        where = "" if cycle is None else f" in cycle {cycle}"
         hint = f" ({remedy})" if remedy else ""
         super().__init__(
-            f"diverged at t = {time:.6g} s: the {quantity} of {coordinate}, {value:g}, {why}{hint}"
+            f"diverged at t = {time:.6g} s: the {quantity} of {coordinate}, {value:g}, {why}{where}{hint}"
+        )
+
+    def because(self, remedy: str) -> "Diverged":
+        """The same with a better remedy; itself where ``remedy`` is empty."""
+        if not remedy:
+            return self
+        return Diverged(
+            self.time,
+            self.coordinate,
+            self.quantity,
+            self.value,
+            self.limit,
+            remedy,
+            self.cycle,
         )

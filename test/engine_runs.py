@@ -1,5 +1,7 @@
 """Runs of the in-process engine: as arrays, as frames, and the same loop stage by stage."""
 
+import numpy as np
+
 from fpt_ros.loop import experiment
 from fpt_ros.loop.engine import Engine
 from fpt_ros.loop.run import Collector
@@ -8,7 +10,11 @@ from fpt_ros.messages.topics import COMMAND, DESIRED, JOINT_STATES, STATE_ESTIMA
 
 def topics_of(name, variant="adaptive", settings=(), duration=None, seed=None):
     """A whole run, compiled: topic -> series."""
-    loaded = experiment.load(name, variant, settings, duration=duration, seed=seed)
+    return run(experiment.load(name, variant, settings, duration, seed))
+
+
+def run(loaded):
+    """A whole run of an experiment that is loaded: topic -> series."""
     engine = Engine(loaded.loop())
     engine.run()
     return engine.topics()
@@ -49,3 +55,29 @@ def collected_stage_by_stage(loop, cycles=None):
     collector = Collector()
     stage_by_stage(loop, collector, cycles)
     return collector.topics()
+
+
+def tracking_errors(topics):
+    """Errors e = q^N - q of every coordinate that is tracked; NaN where it is not its turn."""
+    estimate, desired = topics["state_estimate"], topics["desired"]
+    return {
+        name: desired.column("positions", name) - estimate.column("positions", name)
+        for name in desired.names
+    }
+
+
+def settled_rms(topics, settle_time):
+    """Root mean square of each tracking error from ``settle_time`` [s] on."""
+    late = topics["desired"].time >= settle_time - 1e-9
+    return {
+        name: float(np.sqrt(np.nanmean(error[late] ** 2)))
+        for name, error in tracking_errors(topics).items()
+    }
+
+
+def chatter(topics, settle_time=0.0):
+    """Mean size of r_k - r_{k-1} from ``settle_time`` [s] on."""
+    command = topics["command"]
+    r = command.vectors["accelerations"]
+    r = r[command.time >= settle_time - 1e-9][:, ~np.isnan(r).all(axis=0)]
+    return float(np.mean(np.linalg.norm(np.diff(r, axis=0), axis=1)))

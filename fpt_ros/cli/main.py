@@ -6,7 +6,7 @@ from typing import Any
 
 import typer
 
-from fpt_ros.cli import demo, info, listing, report, run, simulate
+from fpt_ros.cli import demo, gain, info, listing, report, run, simulate
 from fpt_ros.errors import FptError
 
 INTERRUPTED = 130
@@ -23,6 +23,7 @@ app.command("list", help=listing.list_experiments.__doc__)(listing.list_experime
 app.command("simulate", help=simulate.simulate.__doc__)(simulate.simulate)
 app.command("run", help=run.run.__doc__)(run.run)
 app.command("report", help=report.report.__doc__)(report.report)
+app.command("gain", help=gain.gain.__doc__)(gain.gain)
 app.command("info", help=info.info.__doc__)(info.info)
 app.command("demo", help=demo.demo.__doc__)(demo.demo)
 

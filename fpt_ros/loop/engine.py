@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from fpt_ros.errors import RunFailed
+from fpt_ros.errors import Diverged, RunFailed
 from fpt_ros.loop import compiled, cycles
 from fpt_ros.loop.experiment import Loop
 from fpt_ros.loop.fpt_deformer import no_deformation
@@ -204,10 +204,16 @@ class Engine:
             name: matrix[: self.done]
             for name, matrix in zip(topic.vectors, self._rows[topic], strict=True)
         }
+        names = self._names[topic]
         if topic is DESIRED and self._loop.trajectory.slots:
             absent = np.isnan(vectors["accelerations"])
-            vectors = {name: np.where(absent, np.nan, m) for name, m in vectors.items()}
-        return Series(stamps, self._names[topic], vectors)
+            had_turns = ~absent.all(axis=0)
+            names = tuple(name for name, had in zip(names, had_turns, strict=True) if had)
+            vectors = {
+                name: np.where(absent, np.nan, matrix)[:, had_turns]
+                for name, matrix in vectors.items()
+            }
+        return Series(stamps, names, vectors)
 
     def frames(self, first: int, observe: Observer) -> None:
         """Show the frames of the cycles from ``first`` on, in the order of events."""
@@ -244,7 +250,11 @@ def explain(loop: Loop, cycle: int, command: Command | None) -> None:
     if loop.tuner.active:
         wanted = (desired,) if loop.tuner.law.desired else ()
         tuning = loop.tuner.step(estimate, *wanted, command)
-    plant.advance(loop.deformer.step(estimate, desired, tuning), stamp)
+    command = loop.deformer.step(estimate, desired, tuning)
+    try:
+        plant.advance(command, stamp)
+    except Diverged as error:
+        raise error.because(loop.deformer.trouble(estimate.positions)) from None
 
 
 def _vector(values: Any) -> Array:

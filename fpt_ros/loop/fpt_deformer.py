@@ -242,8 +242,7 @@ class FptDeformer(Stage):
             )
         except (ArithmeticError, ValueError) as error:
             remedy = self.trouble(q) or str(error)
-            name = model.coordinates[0]
-            raise Diverged(t, name, "model's effort", math.nan, remedy=remedy) from error
+            raise self._diverged(t, 0, "model's effort", math.nan, remedy) from error
         self._check(t, q, h, deformed, effort)
         return Command(stamp, model.coordinates, deformed, effort)
 
@@ -255,12 +254,14 @@ class FptDeformer(Stage):
                     f"||h|| = {size:g} with A = {self.constants[0]:g} is outside the domain of "
                     "the transformation: a smaller |fpt_deformer.A|, or guard: true"
                 )
-                name = self.model.coordinates[at]
-                raise Diverged(t, name, "deformed response", deformed[at], remedy=remedy)
+                raise self._diverged(t, at, "deformed response", deformed[at], remedy)
         for at, value in enumerate(effort):
             if not math.isfinite(value):
-                name = self.model.coordinates[at]
-                raise Diverged(t, name, "model's effort", value, remedy=self.trouble(q))
+                raise self._diverged(t, at, "model's effort", value, self.trouble(q))
+
+    def _diverged(self, t: float, at: int, what: str, value: float, remedy: str) -> Diverged:
+        cycle = int(self.state[0]) - 1
+        return Diverged(t, self.model.coordinates[at], what, value, remedy=remedy, cycle=cycle)
 
     def trouble(self, q: Vector) -> str:
         """What is wrong with the approximate model at q; empty: nothing that it knows of."""

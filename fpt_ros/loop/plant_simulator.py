@@ -48,6 +48,9 @@ GOOD, EFFORT, RESPONSE, POSITION = 0, 1, 2, 3
 
 CODE = 1024
 
+LOST = "control is lost: fpt gain shows which fpt_deformer.A converges, and of which sign"
+"""The remedy where nothing better is known."""
+
 
 @helper
 def measure(
@@ -263,8 +266,9 @@ class PlantSimulator(Stage):
                 a,
             )
         except (ArithmeticError, ValueError) as error:
+            remedy, cycle = self._trouble(q) or str(error), stamp // self.cycle_time
             name = self.coordinates[0]
-            raise Diverged(t, name, "response", math.nan, remedy=str(error)) from error
+            raise Diverged(t, name, "response", math.nan, remedy=remedy, cycle=cycle) from error
         if status == GOOD:
             return
         code, at = divmod(status, CODE)
@@ -273,4 +277,9 @@ class PlantSimulator(Stage):
             RESPONSE: ("acceleration", a[at], self.acceleration_limit),
             POSITION: ("position", q[at], self.position_limit[at]),
         }[code]
-        raise Diverged(t, self.coordinates[at], *what)
+        cycle, remedy = stamp // self.cycle_time, self._trouble(q)
+        raise Diverged(t, self.coordinates[at], *what, remedy=remedy or LOST, cycle=cycle)
+
+    def _trouble(self, q: Vector) -> str:
+        plant = self.plant
+        return plant.trouble(self.coefficients, q) if plant.trouble is not None else ""

@@ -33,6 +33,8 @@ class Plant:
             derivative; 0 where it is the value itself (a bare iteration).
         workspace: coefficients -> (lowest, highest) position of each coordinate that a nominal
             motion may ask for; ``None``: no limit.
+        trouble: ``trouble(coefficients, q)`` says in words why there is no response at q, with the
+            value and the remedy; empty where there is one.
     """
 
     coordinates: tuple[str, ...]
@@ -43,6 +45,7 @@ class Plant:
     response: Callable[[Vector, Vector, Vector, Vector, MutableVector], None]
     order: int = 2
     workspace: Callable[[Vector], tuple[tuple[float, float], ...]] | None = None
+    trouble: Callable[[Vector, Vector], str] | None = None
 
 
 @dataclass(frozen=True)

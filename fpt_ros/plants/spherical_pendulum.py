@@ -85,6 +85,17 @@ def workspace(c: Vector) -> tuple[tuple[float, float], ...]:
     return (0.0, math.pi), (-math.inf, math.inf)
 
 
+def trouble(c: Vector, q: Vector) -> str:
+    """At sin q1 = 0 the pendulum has no moment of inertia about the vertical."""
+    sin = math.sin(q[0])
+    if abs(sin) > 1e-3:
+        return ""
+    return (
+        f"sin q1 = {sin:.3g}: the plant is singular at 0 (plant_simulator.initial_position and the "
+        "nominal motion have to keep q1 between 0 and pi)"
+    )
+
+
 PLANT = Plant(
     coordinates=COORDINATES,
     units=("rad", "rad"),
@@ -93,6 +104,7 @@ PLANT = Plant(
     coefficients=coefficients,
     response=response,
     workspace=workspace,
+    trouble=trouble,
 )
 
 

@@ -3,9 +3,10 @@ from functools import cache
 
 import numpy as np
 import pytest
+from engine_runs import run
 
-from fpt_ros.loop import engine, experiment
-from fpt_ros.loop.run import Collector, Run, Series
+from fpt_ros.loop import experiment
+from fpt_ros.loop.run import Run, Series
 from fpt_ros.messages.topics import BY_NAME
 
 Rows = Sequence[Sequence[float]]
@@ -15,8 +16,6 @@ Rows = Sequence[Sequence[float]]
 def made(name: str, variant: str = "adaptive", duration: float | None = None) -> Run:
     """An experiment, run in process; runs are read only, so tests share them."""
     loaded = experiment.load(name, variant, duration=duration)
-    collector = Collector()
-    engine.run(loaded.loop(), collector)
     info = {
         "experiment": loaded.name,
         "variant": loaded.variant,
@@ -25,7 +24,7 @@ def made(name: str, variant: str = "adaptive", duration: float | None = None) ->
         "complete": "true",
         "reason": "",
     }
-    return Run(info, loaded.nodes, collector.topics())
+    return Run(info, loaded.nodes, run(loaded))
 
 
 def cut(run: Run, cycles: int) -> Run:

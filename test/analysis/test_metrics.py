@@ -121,9 +121,8 @@ def test_one_cycle_makes_no_chatter(make, shorten):
 def test_final_parameters_are_the_last_tuned_ones(make):
     run = make("vdp_rfpt", duration=1.0)
     last = run.topics["tuning"].vectors["values"][-1]
-    assert summary(run)["final_parameters"] == dict(
-        zip(("m", "mu", "mu_c", "k", "beta", "lambda"), last, strict=True)
-    )
+    names = ("m", "mu", "mu_c", "k", "beta", "lambda", "precursor", "gain_factor")
+    assert summary(run)["final_parameters"] == dict(zip(names, last, strict=True))
     assert last[0] != 9.0
 
 

@@ -2,15 +2,22 @@
 
 from pathlib import Path
 
-from fpt_ros.bags.writer import BagWriter
-from fpt_ros.loop import engine, experiment
+from fpt_ros.bags.recording import EngineRecording
+from fpt_ros.loop import experiment
+from fpt_ros.loop.engine import Engine
 from fpt_ros.loop.experiment import Experiment
-from fpt_ros.loop.run import Collector
-from fpt_ros.messages.cdr import Codec
+from fpt_ros.loop.run import Series
 from fpt_ros.messages.frames import Frame
-from fpt_ros.messages.topics import LOOP_TOPICS, Topic
+from fpt_ros.messages.topics import Topic
+from fpt_ros.parameters import Value
 
-INFO = {"experiment": "tora", "variant": "adaptive", "engine": "in_process", "version": "0.1.0"}
+INFO = {
+    "experiment": "tora",
+    "variant": "adaptive",
+    "engine": "in_process",
+    "version": "0.1.0",
+    "clock": "lockstep",
+}
 
 
 class Recorded:
@@ -21,17 +28,25 @@ class Recorded:
         self,
         experiment: Experiment,
         frames: list[tuple[Topic, Frame]],
-        collector: Collector,
+        topics: dict[str, Series],
         directory: Path,
     ) -> None:
         self.experiment = experiment
         self.frames = frames
-        self.collector = collector
+        self.topics = topics
         self.directory = directory
 
     @property
     def file(self) -> Path:
         return self.directory / f"{self.directory.name}_0.mcap"
+
+    @property
+    def parameters(self) -> dict[str, dict[str, Value]]:
+        """As files hold them: without empty lists, which have no type in ROS."""
+        return {
+            node: {name: value for name, value in values.items() if value != []}
+            for node, values in self.experiment.nodes.items()
+        }
 
     def of(self, topic: Topic) -> list[Frame]:
         return [frame for shown, frame in self.frames if shown is topic]
@@ -40,16 +55,8 @@ class Recorded:
 def record(directory: Path) -> Recorded:
     tora = experiment.load("tora", duration=1.0)
     frames: list[tuple[Topic, Frame]] = []
-    collector = Collector()
-    codecs = {topic.name: Codec(topic) for topic in LOOP_TOPICS}
-
-    with BagWriter(directory, tora.nodes, INFO) as bag:
-
-        def observe(topic: Topic, frame: Frame) -> None:
-            frames.append((topic, frame))
-            collector(topic, frame)
-            data = codecs[topic.name].encode(frame)
-            bag.write(f"/{topic.name}", topic.type, frame.stamp, data)
-
-        engine.run(tora.loop(), observe)
-    return Recorded(tora, frames, collector, directory)
+    engine = Engine(tora.loop())
+    with EngineRecording(directory, tora, engine) as recording:
+        engine.run(lambda cycle: recording.update())
+    engine.frames(0, lambda topic, frame: frames.append((topic, frame)))
+    return Recorded(tora, frames, engine.topics(), directory)

@@ -37,7 +37,7 @@ def message(stamp: int, value: float = 1.0) -> bytes:
 
 
 def test_run_is_read_back_to_the_bit(recorded: Recorded) -> None:
-    expected = recorded.collector.topics()
+    expected = recorded.topics
     for path in (recorded.directory, recorded.file):
         run = reader.read_run(path)
         assert run.topics.keys() == expected.keys()
@@ -48,8 +48,8 @@ def test_run_is_read_back_to_the_bit(recorded: Recorded) -> None:
 
 def test_parameters_keep_their_types(recorded: Recorded) -> None:
     run = reader.read_run(recorded.directory)
-    assert run.parameters == recorded.experiment.nodes
-    for node, values in recorded.experiment.nodes.items():
+    assert run.parameters == recorded.parameters
+    for node, values in recorded.parameters.items():
         for name, value in values.items():
             assert type(run.parameters[node][name]) is type(value), f"{node}.{name}"
 
@@ -81,7 +81,7 @@ def test_namespace_and_time_sharing(tmp_path: Path) -> None:
         bag.write("/diagnostics", "diagnostic_msgs/msg/DiagnosticArray", 0, bytes(16))
         for stamp, names in zip(TIME_POINTS, [("x",), ("y",), ()], strict=True):
             vector = tuple(float(stamp) for _ in names)
-            data = codec.encode(Desired(stamp, names, vector, vector, vector))
+            data = codec.encode(Desired(stamp, names, vector, vector, vector, vector))
             bag.write("/a/b/desired", DESIRED.type, stamp, data)
         data = other.encode(Command(0, ("x", "y"), (np.nan, 2.0), (3.0, -0.0)))
         bag.write("/a/b/command", COMMAND.type, 0, data)
@@ -172,7 +172,7 @@ def test_cut_anywhere_gives_a_prefix(
     assert (run is not None) == (position >= parameters)
     if run is None:
         return
-    expected = recorded.collector.topics()
+    expected = recorded.topics
     for name, series in run.topics.items():
         same(series, expected[name], len(series.stamps))
     count = sum(len(series.stamps) for series in run.topics.values())
@@ -181,7 +181,7 @@ def test_cut_anywhere_gives_a_prefix(
     else:
         assert (run.info["complete"], run.info["reason"]) == ("false", "the recording was cut")
         assert (count > 0) == (position >= chunks[0])
-    assert run.parameters == recorded.experiment.nodes
+    assert run.parameters == recorded.parameters
 
 
 @settings(deadline=None, max_examples=200)
@@ -209,7 +209,7 @@ def test_damaged_chunk(recorded: Recorded, tmp_path: Path) -> None:
     assert (run.info["complete"], run.info["reason"]) == ("false", "the recording is damaged")
     count = len(run.topics["joint_states"].stamps)
     assert 0 < count < 1000
-    same(run.topics["joint_states"], recorded.collector.topics()["joint_states"], count)
+    same(run.topics["joint_states"], recorded.topics["joint_states"], count)
 
 
 def test_end_of_a_file_that_the_power_failed_on(recorded: Recorded, tmp_path: Path) -> None:

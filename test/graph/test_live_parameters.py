@@ -4,11 +4,12 @@ import signal
 
 import numpy as np
 from command import fpt_json, start_fpt
+from engine_runs import stage_by_stage
 from mcap_ros2.reader import read_ros2_messages
 from watcher import watcher
 
 from fpt_ros.bags.reader import read_run
-from fpt_ros.loop import engine, experiment
+from fpt_ros.loop import experiment
 from fpt_ros.loop.run import Collector
 from fpt_ros.messages.topics import DESIRED
 
@@ -54,7 +55,7 @@ def test_changes_take_effect_at_a_cycle_and_are_recorded_with_its_stamp(tmp_path
         if topic == DESIRED and frame.stamp in changes:
             loop.deformer.configure(changes[frame.stamp])
 
-    engine.run(loop, observe)
+    stage_by_stage(loop, observe)
     same_efforts(collector.topics()["command"], read_run(bag).topics["command"])
 
 

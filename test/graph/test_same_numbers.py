@@ -5,6 +5,7 @@ import pytest
 from command import fpt, fpt_json
 
 from fpt_ros.bags.reader import read_run
+from fpt_ros.loop.experiment import available, load
 
 
 def identical(a, b):
@@ -17,19 +18,25 @@ def identical(a, b):
             assert numbers.tobytes() == theirs.vectors[vector].tobytes(), (name, vector)
 
 
-@pytest.mark.parametrize(
-    ("experiment", "variant", "duration", "options"),
-    [
-        ("tora", "adaptive", 16, ()),
-        ("tora", "strong", 4, ("--composed",)),
-        ("tora", "nonadaptive", 3, ("--namespace", "robot1")),
-        ("vdp_rfpt", "adaptive", 6, ()),
-        ("vdp_rfpt", "adaptive", 60, ("--composed",)),
-        ("vdp_rfpt", "fixed_model", 4, ()),
-    ],
-)
-def test_graph_equals_engine(tmp_path, experiment, variant, duration, options):
-    common = (experiment, "--variant", variant, "--duration", duration)
+CYCLES = 600
+
+SHORTENED = {
+    "coupled_masses": ("fpt_deformer.adaptive_from=0.2", "parameter_tuner.tune_from=0.2"),
+    "swing": ("trajectory_generator.time_sharing=[0.02, 0.005]",),
+}
+"""What makes a short run pass through all that a long one does."""
+
+EVERY = [(name, variant) for name, variants in available().items() for variant in variants]
+
+SEPARATE = [
+    ("tora", "adaptive", 16, ()),
+    ("tora", "nonadaptive", 3, ("--namespace", "robot1")),
+    ("vdp_rfpt", "adaptive", 6, ()),
+    ("swing", "adaptive", 0.1, ("--set", "trajectory_generator.time_sharing=[0.02, 0.005]")),
+]
+
+
+def compare(tmp_path, common, options):
     engine = fpt_json("simulate", *common, "--record", tmp_path / "engine")
     graph = fpt_json("run", *common, *options, "--record", tmp_path / "graph")
     assert graph["engine"] == "graph"
@@ -37,6 +44,20 @@ def test_graph_equals_engine(tmp_path, experiment, variant, duration, options):
     assert graph["chatter"] == engine["chatter"]
     assert graph["final_parameters"] == engine["final_parameters"]
     identical(read_run(tmp_path / "engine"), read_run(tmp_path / "graph"))
+
+
+@pytest.mark.parametrize(("experiment", "variant", "duration", "options"), SEPARATE)
+def test_separate_processes_equal_the_engine(tmp_path, experiment, variant, duration, options):
+    set_, rest = (options, ()) if "--set" in options else ((), options)
+    compare(tmp_path, (experiment, "--variant", variant, "--duration", duration, *set_), rest)
+
+
+@pytest.mark.parametrize(("experiment", "variant"), EVERY)
+def test_composed_graph_equals_the_engine(tmp_path, experiment, variant):
+    dt = float(load(experiment, variant).nodes["plant_simulator"]["dt"])
+    settings = [x for text in SHORTENED.get(experiment, ()) for x in ("--set", text)]
+    common = (experiment, "--variant", variant, "--duration", CYCLES * dt, *settings)
+    compare(tmp_path, common, ("--composed",))
 
 
 def test_noise_and_settings_reach_the_nodes(tmp_path):

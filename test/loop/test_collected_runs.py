@@ -4,8 +4,10 @@ import math
 
 import numpy as np
 import pytest
+from engine_runs import stage_by_stage, topics_of
 
-from fpt_ros.loop import engine, experiment
+from fpt_ros.loop import experiment
+from fpt_ros.loop.engine import Engine
 from fpt_ros.loop.run import Collector, Run, describe
 from fpt_ros.messages.frames import Desired, Tuning
 from fpt_ros.messages.topics import DESIRED, LOOP_TOPICS, TUNING
@@ -14,7 +16,7 @@ NAN = math.nan
 
 
 def desired(stamp, names, numbers):
-    return Desired(stamp, names, numbers, [10.0 * x for x in numbers], [-x for x in numbers])
+    return Desired(stamp, names, numbers, *([f * x for x in numbers] for f in (10.0, -1.0, 2.0)))
 
 
 def test_a_collected_run_has_every_frame_of_every_topic():
@@ -25,8 +27,20 @@ def test_a_collected_run_has_every_frame_of_every_topic():
         collector(topic, frame)
         frames.append((topic, frame))
 
-    engine.run(loaded.loop(), observe)
+    stage_by_stage(loaded.loop(), observe)
     run = Run(describe(loaded, "in_process", ""), loaded.nodes, collector.topics())
+    check(run, frames)
+
+
+def test_a_run_of_the_engine_has_every_frame_of_every_topic():
+    loaded, frames = experiment.load("vdp_rfpt", duration=0.02), []
+    engine = Engine(loaded.loop())
+    engine.run()
+    engine.frames(0, lambda topic, frame: frames.append((topic, frame)))
+    check(Run(describe(loaded, "in_process", ""), loaded.nodes, engine.topics()), frames)
+
+
+def check(run, frames):
     assert list(run.topics) == [topic.name for topic in LOOP_TOPICS]
     for topic in LOOP_TOPICS:
         series = run.topics[topic.name]
@@ -44,6 +58,10 @@ def test_a_collected_run_has_every_frame_of_every_topic():
             assert np.array_equal(series.vectors[vector], expected, equal_nan=True)
     assert run.info["experiment"] == "vdp_rfpt"
     assert (run.info["complete"], run.info["reason"]) == ("true", "")
+
+
+def test_a_run_with_a_reason_is_not_complete():
+    loaded = experiment.load("vdp_rfpt", duration=0.02)
     assert describe(loaded, "graph", "diverged")["complete"] == "false"
 
 
@@ -81,15 +99,14 @@ def test_what_was_collected_so_far_does_not_stop_the_collecting():
 
 def test_a_topic_that_nobody_published_is_absent():
     assert Collector().topics() == {}
+    assert "tuning" not in topics_of("tora", duration=0.002)
     collector = Collector()
-    engine.run(experiment.load("tora", duration=0.002).loop(), collector)
+    stage_by_stage(experiment.load("tora", duration=0.002).loop(), collector)
     assert "tuning" not in collector.topics()
 
 
 def test_columns_are_found_by_name():
-    collector = Collector()
-    engine.run(experiment.load("tora", duration=0.005).loop(), collector)
-    series = collector.topics()["desired"]
+    series = topics_of("tora", duration=0.005)["desired"]
     assert series.names == ("q3", "q2")
     first = series.vectors["velocities"][0]
     assert series.column("velocities", "q3")[0] == first[0] == pytest.approx(0.462857, abs=5e-7)

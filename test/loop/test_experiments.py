@@ -7,6 +7,7 @@ import pytest
 from fpt_ros.errors import BadInput
 from fpt_ros.loop import experiment, parameter_file
 from fpt_ros.loop.locate import config_directory
+from fpt_ros.loop.parameter_tuner import in_the_loop
 
 NODES = (
     "plant_simulator",
@@ -16,6 +17,7 @@ NODES = (
     "fpt_deformer",
     "recorder",
 )
+WITHOUT_TUNER = {"method": "none", "precursor": False, "precursor_guard": False, "realtime": False}
 
 
 def refused(*args, **kwargs):
@@ -50,7 +52,7 @@ def test_the_base_file_is_complete_and_typed():
     assert plant["substeps"] == 1
     assert plant["limit.position"] == [1.5, 1000.0, 1000.0]
     assert loaded.nodes["fpt_deformer"]["approximate.theta"] == 5.0
-    assert loaded.nodes["parameter_tuner"] == {"method": "none", "realtime": False}
+    assert loaded.nodes["parameter_tuner"] == WITHOUT_TUNER
     assert loaded.about["settle_time"] == 4.0
     assert loaded.about["experiment"] == "tora"
     assert loaded.about["variant"] == "adaptive"
@@ -59,7 +61,7 @@ def test_the_base_file_is_complete_and_typed():
 
 def test_available_lists_the_base_first():
     found = experiment.available()
-    assert found["tora"] == ["adaptive", "nonadaptive", "strong"]
+    assert found["tora"] == ["adaptive", "chatter", "guarded", "nonadaptive", "strong"]
     assert found["vdp_rfpt"][0] == "adaptive"
     assert set(found["vdp_rfpt"]) == {
         "adaptive", "no_rfpt", "fixed_model", "fixed_model_no_rfpt", "undisturbed"
@@ -71,7 +73,7 @@ def test_a_variant_replaces_a_law_with_its_parameters():
     assert deformer["transformation"] == "none"
     assert not {"A", "K", "D", "guard", "form"} & deformer.keys()
     loaded = experiment.load("vdp_rfpt", "fixed_model")
-    assert loaded.nodes["parameter_tuner"] == {"method": "none", "realtime": False}
+    assert loaded.nodes["parameter_tuner"] == WITHOUT_TUNER
     assert loaded.nodes["fpt_deformer"]["await_tuning"] is False
     assert loaded.nodes["fpt_deformer"]["approximate.m"] == 9.0
     assert loaded.about["variant"] == "fixed_model"
@@ -170,8 +172,8 @@ def test_with_values_leaves_the_original_alone():
 
 def test_unknown_names_list_what_there_is():
     assert refused("toar").startswith("no experiment 'toar': there are ")
-    assert "tora, vdp_rfpt" in refused("toar")
-    expected = "tora has no variant 'weak': it has adaptive, nonadaptive, strong"
+    assert ", ".join(experiment.available()) in refused("toar")
+    expected = "tora has no variant 'weak': it has adaptive, chatter, guarded, nonadaptive, strong"
     assert refused("tora", "weak") == expected
     assert refused("tora", "../x").startswith("tora has no variant '../x': it has adaptive")
     assert refused("tora", settings=["plant.dt=1"]) == (
@@ -187,8 +189,8 @@ def test_unknown_names_list_what_there_is():
     assert message.startswith("'magic' is none of the tuning laws: none, ")
     assert "projection" in message
     for setting, valid in (
-        ("plant_simulator.plant=x", "tora, van_der_pol"),
-        ("fpt_deformer.model=x", "tora, van_der_pol"),
+        ("plant_simulator.plant=x", "swing, tora, van_der_pol"),
+        ("fpt_deformer.model=x", "swing, tora, van_der_pol"),
         ("trajectory_generator.trajectory=x", "spline"),
         ("plant_simulator.disturbance.kind=x", "bspline"),
         ("denoiser.method=x", "none"),
@@ -236,7 +238,7 @@ def test_a_setting_has_a_form(setting):
         ("trajectory_generator.amplitude=[1.0]", "amplitude: 1 given, 2 needed (q3, q2)"),
         ("trajectory_generator.frequency=[]", "frequency: 0 given, 2 needed (q3, q2)"),
         ("trajectory_generator.lambda=0", "it takes a number > 0 [1/s]"),
-        ("trajectory_generator.error_relaxation=p", "it takes one of pd, pid"),
+        ("trajectory_generator.error_relaxation=p", "it takes one of pd, pi, pid, value"),
         ("trajectory_generator.controlled=[q1, q2]", "response of 'q1', only of q2, q3"),
         ("trajectory_generator.controlled=[q2, q2]", "it takes one or more different coordinates"),
         ("trajectory_generator.controlled=[]", "it takes one or more different coordinates"),
@@ -382,7 +384,7 @@ def test_await_tuning_in_the_files_themselves_agrees_with_the_tuner(name, varian
     if variant != "adaptive":
         overlay = parameter_file.read(config_directory() / f"{name}.{variant}.yaml")
         file = file.overlay(overlay)
-    in_loop = file.nodes["parameter_tuner"].get("method", "none") != "none"
+    in_loop = in_the_loop(file.nodes["parameter_tuner"])
     for node in ("fpt_deformer", "recorder"):
         merged = {**file.shared, **file.nodes[node]}
         assert merged.get("await_tuning", False) is in_loop

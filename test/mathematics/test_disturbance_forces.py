@@ -11,7 +11,7 @@ POINTS = np.array([0, 30, 60, 20, -40, -70, -30, 10, 50, 40, -20, -50]) / 70.0
 
 
 def curve(t, amplitude=1.0, frequency=1.0):
-    return np.array([FORCE(amplitude, frequency, x) for x in t])
+    return np.array([FORCE((amplitude, frequency), [], x, 1e-3, 0.3, -0.4) for x in t])
 
 
 def test_peak_and_rms():
@@ -50,4 +50,4 @@ def test_value_slope_and_curvature_are_continuous_at_a_knot(knot):
 
 
 def test_none_is_no_force():
-    assert registry.disturbance("none").force(100.0, 1.0, 3.3) == 0.0
+    assert registry.disturbance("none").force((100.0, 1.0), [], 3.3, 1e-3, 1.0, 1.0) == 0.0

@@ -14,10 +14,13 @@ from fpt_ros.trajectories import spline
 TIMES = st.floats(0.0, 50.0)
 
 
-def nominal(name, amplitude, frequency, t):
-    n = len(amplitude)
+def nominal(name, amplitude, frequency, t, **own):
+    trajectory, n = registry.trajectory(name), len(amplitude)
+    values = {parameter.name: parameter.default for parameter in trajectory.parameters}
+    values |= {"amplitude": amplitude, "frequency": frequency, **own}
     q, v, a = [math.nan] * n, [math.nan] * n, [math.nan] * n
-    registry.trajectory(name).nominal(amplitude, frequency, t, q, v, a)
+    constants = trajectory.prepare(values, n)
+    trajectory.nominal(constants, list(trajectory.state), t, 0.0, q, v, a)
     return np.array([q, v, a])
 
 

@@ -9,7 +9,9 @@ from hypothesis import strategies as st
 
 from fpt_ros.errors import BadInput
 from fpt_ros.parameters import resolve
-from fpt_ros.transformations.sgfpt import SGFPT, fixed_points, generator
+from fpt_ros.transformations import sigmoid
+from fpt_ros.transformations.sgfpt import SGFPT, fixed_points
+from fpt_ros.transformations.sgfpt import generator as generator_of
 
 K, D = 0.5, 0.6
 ATTRACTIVE, REPULSIVE = 0.7130913716914226, -0.1130913716914226
@@ -17,6 +19,10 @@ SLOPE = 0.6327308229685502
 
 number = st.floats(-20.0, 20.0)
 vector = st.lists(number, min_size=2, max_size=2)
+
+
+def generator(k, d, x):
+    return generator_of((*[math.nan] * sigmoid.FIRST, k, d), x)
 
 
 def transformation(**given_values):

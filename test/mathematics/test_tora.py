@@ -13,6 +13,7 @@ from fpt_ros.plants import tora
 
 EXACT = (20.0, 30.0, 2.0, 20.0, 9.81)
 APPROXIMATE = (10.0, 20.0, 2.0, 5.0, 9.81)
+NO_ERROR = (0.0, 0.0, 0.0)
 
 rate = st.floats(-3.0, 3.0)
 force = st.floats(-300.0, 300.0)
@@ -79,7 +80,7 @@ def test_coordinates_and_what_the_model_can_prescribe():
 @given(physical, angle, st.tuples(rate, rate, rate), st.tuples(rate, rate))
 def test_an_exact_model_gets_the_response_it_asks_for(parameters, q1, v, wanted):
     q, r, effort = (q1, 0.3, -0.2), (math.nan, *wanted), [math.nan] * 3
-    tora.MODEL.effort(tora.MODEL.coefficients(parameters), q, v, r, effort)
+    tora.MODEL.effort(tora.MODEL.coefficients(parameters), q, v, r, NO_ERROR, effort)
     assert effort[2] == 0.0
     response = respond(parameters, q, v, effort)
     scale = 1.0 + max(map(abs, effort))
@@ -128,9 +129,8 @@ def test_eigenvalues_of_the_response_to_a_wrong_model(q1):
 
     def answer(q3_wanted, q2_wanted):
         effort = [0.0] * 3
-        tora.MODEL.effort(
-            tora.MODEL.coefficients(APPROXIMATE), q, v, (math.nan, q2_wanted, q3_wanted), effort
-        )
+        wanted = (math.nan, q2_wanted, q3_wanted)
+        tora.MODEL.effort(tora.MODEL.coefficients(APPROXIMATE), q, v, wanted, NO_ERROR, effort)
         response = respond(EXACT, q, v, effort)
         return np.array([response[2], response[1]])
 

@@ -22,7 +22,7 @@ def test_coefficients_are_those_of_the_experiment():
 def test_an_exact_model_gets_the_response_it_asks_for(parameters, q, v, wanted):
     theta = van_der_pol.MODEL.coefficients(parameters)
     effort, response = [math.nan], [math.nan]
-    van_der_pol.MODEL.effort(theta, [q], [v], [wanted], effort)
+    van_der_pol.MODEL.effort(theta, [q], [v], [wanted], [0.0], effort)
     van_der_pol.PLANT.response(theta, [q], [v], effort, response)
     assert response[0] == pytest.approx(wanted, rel=1e-12, abs=1e-14 * (1.0 + abs(effort[0])))
 
@@ -32,8 +32,8 @@ def test_an_exact_model_gets_the_response_it_asks_for(parameters, q, v, wanted):
 def test_effort_is_the_regressor_times_the_coefficients(parameters, q, v, wanted):
     theta = van_der_pol.MODEL.coefficients(parameters)
     effort, row = [math.nan], [math.nan] * 6
-    van_der_pol.MODEL.effort(theta, [q], [v], [wanted], effort)
-    van_der_pol.MODEL.regressor([q], [v], [wanted], row)
+    van_der_pol.MODEL.effort(theta, [q], [v], [wanted], [0.0], effort)
+    van_der_pol.MODEL.regressor([q], [v], [math.nan], [wanted], row)
     terms = [y * x for y, x in zip(row, theta, strict=True)]
     assert effort[0] == pytest.approx(sum(terms), abs=1e-14 * sum(map(abs, terms)))
 

@@ -61,8 +61,8 @@ PARAMETERS = (
 )
 """``window`` and ``degree`` are those of the first pass of the literal rules."""
 
-CAPS = {1: 0.5, 2: 1.6, 3: 1.6, 4: 2.5, 5: 2.5}
-"""Greatest window over mean length of sections; degrees 2 and 3, 4 and 5 have one smoother."""
+CAPS = {1: 0.5, 2: 1.05, 3: 1.6, 4: 2.05, 5: 2.5}
+"""Greatest window over the mean length of sections, by degree."""
 
 PROMINENCE = 2.5
 RUN = 2.0

@@ -35,7 +35,7 @@ PARAMETERS = (
         above=0.0,
     ),
     Parameter(
-        "forgetting", "what the log-likelihood keeps a sample", 0.98, minimum=0.0, maximum=1.0
+        "forgetting", "what the log-likelihood keeps a sample", 0.99, minimum=0.0, maximum=1.0
     ),
     Parameter("gate", "standard deviations beyond which a sample is an impulse", 4.0, above=2.0),
     Parameter("settling", "time without gating at the start", 0.8, unit="s", minimum=0.0),

@@ -1,0 +1,440 @@
+"""The range of the gain A in which the iteration contracts, and what happens outside it.
+
+Asked for r, the plant answers f(r): the exact response to the approximate model's effort for r. With
+J = df/dr over the controlled coordinates, their weights W, and the transformation's slope, a small
+response error h is multiplied by
+
+    1 + A slope lambda (1 + feedback),   lambda: the eigenvalues of W J
+
+once every ``learning_delay`` cycles. The feedback: what the response did to the state until it is
+used, the desired response takes back. A response that is one cycle old has changed q' by dt f, so
+that for a PID law feedback = 3 Lambda dt; with a delay of d cycles d times as much. (In a pure
+two-cycle of the loop q' itself alternates, and half of that is left: the limit is on the safe side
+by up to half the feedback.)
+
+Beyond the linear limit, and for starts that are not close to the solution, the step's saturation
+counts: :mod:`fpt_ros.analysis.gain_map`.
+"""
+
+import math
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, replace
+from functools import partial
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fpt_ros.analysis.gain_map import ScalarMap, scalar_map
+from fpt_ros.errors import BadInput
+from fpt_ros.laws import NOT_CONTROLLED
+from fpt_ros.loop import nominal
+from fpt_ros.loop.trajectory_generator import slot
+from fpt_ros.messages.frames import SECOND
+from fpt_ros.tuning import GAIN
+
+if TYPE_CHECKING:
+    from fpt_ros.loop.engine import Engine
+    from fpt_ros.loop.experiment import Experiment, Loop
+
+POINTS = 200
+"""Points along the motion at which the response is linearised."""
+
+MARGIN = 0.8
+"""The recommended A as a part of the gain up to which all convergence is monotone."""
+
+RUNS_AWAY = "runs away"
+MONOTONE = "monotone"
+PRECURSOR = "precursor oscillation"
+TWO_CYCLE = "two-cycle"
+DOUBLING = "period doubling"
+DOUBLING_TO_CHAOS = "period doubling, chaos"
+CHAOS = "chaos"
+LEAVES = "leaves the domain"
+OR_TWO_CYCLE = f" or {TWO_CYCLE}"
+
+
+@dataclass(frozen=True)
+class Point:
+    """Where the response is linearised.
+
+    Attributes:
+        time: [s].
+        q, v: of all n coordinates.
+        r: response asked for; NaN where a coordinate is not controlled.
+        coefficients: of the approximate model.
+    """
+
+    time: float
+    q: list[float]
+    v: list[float]
+    r: list[float]
+    coefficients: Sequence[float]
+
+
+@dataclass(frozen=True)
+class Band:
+    """What the iteration does for |A| between two values; ``end``: inf where it goes on for ever."""
+
+    start: float
+    end: float
+    name: str
+
+
+@dataclass(frozen=True)
+class Course:
+    """Eigenvalues along a motion.
+
+    Attributes:
+        time: (N,) [s].
+        eigenvalues: (N, c) of W J, real parts, sorted; NaN where there are fewer.
+    """
+
+    time: NDArray[np.float64]
+    eigenvalues: NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Gain:
+    """The analysis; all limits are magnitudes |A|, ``sign`` is that of the A that contracts.
+
+    Attributes:
+        given: A of the experiment.
+        calculated: a tuner gives A, the parameter file's is not used.
+        sign: 0 where no A contracts, because eigenvalues of both signs occur.
+        eigenvalues: least and greatest (real parts) along the motion.
+        feedback: of the desired response within the learning delay.
+        slope: of the transformation's step.
+        step_limit: largest step of r; inf: none.
+        reach: |A| h at which a response error is out of the transformation's domain at once; inf.
+        monotone: up to here no response error changes its sign.
+        linear_limit: up to here small response errors decay.
+        bare_limit: the same without the feedback, the desired response held.
+        hard_onset: from here on a finite two-cycle lies beside the solution; ``None``: from nowhere.
+        doubling: here the two-cycle that the solution has given way to doubles its period.
+        chaos: first chaotic gain on a grid, where it was looked for.
+        domain_limit: beyond it the iteration leaves the transformation's domain from any start.
+        recommended: ``MARGIN`` of the least of monotone and hard_onset, with two digits.
+        scale: |A| of the scalar map with p = 1.
+        scalar: that map.
+    """
+
+    given: float
+    calculated: bool
+    sign: int
+    eigenvalues: tuple[float, float]
+    feedback: float
+    slope: float
+    step_limit: float
+    reach: float
+    monotone: float
+    linear_limit: float
+    bare_limit: float
+    hard_onset: float | None
+    doubling: float | None
+    chaos: float | None
+    domain_limit: float | None
+    recommended: float
+    scale: float
+    scalar: ScalarMap
+
+    @property
+    def range(self) -> tuple[float, float]:
+        """The open interval of A in which the iteration contracts; empty where ``sign`` is 0."""
+        return (-self.linear_limit, 0.0) if self.sign < 0 else (0.0, self.linear_limit)
+
+    def contracts(self, A: float) -> bool:
+        """Whether small response errors decay with this gain."""
+        low, high = self.range
+        return low < A < high
+
+    @property
+    def hard_step(self) -> float:
+        """The step of r in the two-cycle of the hard onset; NaN: there is none."""
+        cycle = self.scalar.hard_onset()
+        return self.scalar.step(cycle.high) if cycle is not None else math.nan
+
+    @property
+    def bands(self) -> tuple[Band, ...]:
+        """Behaviour over |A| with the right sign, from 0 on."""
+        if self.sign == 0:
+            return (Band(0.0, math.inf, RUNS_AWAY),)
+        limit, hard, domain = self.linear_limit, self.hard_onset, self.domain_limit
+        ends = {0.0, self.monotone, limit, hard, self.doubling, self.chaos, domain}
+        marks = sorted(end for end in ends if end is not None)
+        pairs = zip(marks, [*marks[1:], math.inf], strict=True)
+        return tuple(Band(start, end, self._name(start)) for start, end in pairs)
+
+    def _name(self, start: float) -> str:
+        """The behaviour from ``start``, one of the limits, to the next one."""
+        if self.domain_limit is not None and start >= self.domain_limit:
+            return LEAVES
+        if start < self.linear_limit:
+            name = MONOTONE if start < self.monotone else PRECURSOR
+            beside = self.hard_onset is not None and start >= self.hard_onset
+            return name + OR_TWO_CYCLE if beside else name
+        if self.doubling is None or start < self.doubling:
+            return TWO_CYCLE
+        if self.chaos is None:
+            return DOUBLING_TO_CHAOS
+        return CHAOS if start >= self.chaos else DOUBLING
+
+    def multipliers(self, A: float, eigenvalues: Iterable[float]) -> NDArray[np.float64]:
+        """What a small response error is multiplied by, for these eigenvalues."""
+        rate = A * self.slope * (1.0 + self.feedback)
+        return 1.0 + rate * np.asarray(eigenvalues, dtype=np.float64)
+
+    def behaviour(self, A: float) -> str:
+        """Name of what the iteration does with this gain."""
+        if A == 0.0:
+            return "learns nothing"
+        if A * self.sign <= 0.0:
+            return RUNS_AWAY
+        return next(band.name for band in self.bands if band.start <= abs(A) < band.end)
+
+    def with_chaos(self) -> "Gain":
+        """The same with ``chaos`` looked for, which takes a second."""
+        p = self.scalar.chaos(_times(self.doubling, 1.0 / self.scale), self.end_of_map)
+        return replace(self, chaos=_times(p, self.scale))
+
+    @property
+    def end_of_map(self) -> float | None:
+        """The p of the domain limit."""
+        return _times(self.domain_limit, 1.0 / self.scale)
+
+
+def bounds(experiment: "Experiment", points: Sequence[Point] | None = None) -> Gain:
+    """The range of A of an experiment, without running it.
+
+    Args:
+        experiment: with a transformation.
+        points: of a motion (:func:`along`); default: the nominal one, the coordinates that are not
+            controlled as they are at the start.
+
+    Raises:
+        BadInput: it has no transformation, or the model is not defined along the motion.
+    """
+    loop = experiment.loop()
+    deformer = loop.deformer
+    transformation = deformer.transformation
+    if transformation is None:
+        raise BadInput(
+            f"{experiment.name} {experiment.variant} has no fixed point transformation "
+            "(fpt_deformer.transformation: none): there is no gain to choose"
+        )
+    found = spectrum(loop, nominal_points(loop) if points is None else points)
+    values = found[np.isfinite(found)]
+    if not values.size:
+        raise BadInput(
+            f"{experiment.name} {experiment.variant}: the approximate model or the plant is not "
+            "defined anywhere along the nominal motion"
+        )
+    real = values.real
+    least, greatest = float(real.min()), float(real.max())
+    size = max(abs(least), abs(greatest))
+    tiny = 1e-9 * size
+    side = 1.0 if least >= -tiny else -1.0
+    one_sign = size > 0.0 and (least >= -tiny or greatest <= tiny)
+    scalar = scalar_map(transformation, deformer.constants, side)
+    taken = values[np.abs(real) > tiny]
+    # the circle |1 - a lambda| = 1 is left at a = 2 Re lambda / |lambda|^2
+    steepest = float((np.abs(taken) ** 2 / np.abs(taken.real)).max()) if taken.size else math.nan
+    fed_back = feedback(loop)
+    scale = 1.0 / (steepest * (1.0 + fed_back))
+    slope = transformation.slope(deformer.constants)
+    sign = int(-math.copysign(1.0, slope * side)) if one_sign else 0
+    hard = scalar.hard_onset()
+    hard_onset = hard.p * scale if hard is not None and one_sign else None
+    linear = scalar.linear * scale if one_sign else 0.0
+    best = MARGIN * min(0.5 * linear, hard_onset if hard_onset is not None else math.inf)
+    low, high = scalar.edges
+    return Gain(
+        given=deformer.gain,
+        calculated=loop.tuner.active and loop.tuner.law.tunes == GAIN,
+        sign=sign,
+        eigenvalues=(least, greatest),
+        feedback=fed_back,
+        slope=slope,
+        step_limit=transformation.step_limit(deformer.constants),
+        reach=min(-low, high),
+        monotone=0.5 * linear,
+        linear_limit=linear,
+        bare_limit=linear * (1.0 + fed_back),
+        hard_onset=hard_onset,
+        doubling=_times(scalar.doubling(), scale) if one_sign else None,
+        chaos=None,
+        domain_limit=_times(scalar.domain_limit(), scale) if one_sign else None,
+        recommended=sign * _rounded_down(best),
+        scale=scale,
+        scalar=scalar,
+    )
+
+
+def course(experiment: "Experiment", points: Sequence[Point] | None = None) -> Course:
+    """The eigenvalues along a motion, the nominal one by default."""
+    loop = experiment.loop()
+    points = nominal_points(loop) if points is None else points
+    return Course(np.array([point.time for point in points]), spectrum(loop, points).real)
+
+
+def _times(number: float | None, factor: float) -> float | None:
+    return number * factor if number is not None else None
+
+
+def _rounded_down(x: float) -> float:
+    """To two digits."""
+    if not 0.0 < x < math.inf:
+        return 0.0
+    exponent = 1 - math.floor(math.log10(x))
+    return round(math.floor(x * 10.0**exponent + 1e-9) / 10.0**exponent, max(exponent, 0))
+
+
+def feedback(loop: "Loop") -> float:
+    """How much of the response error the desired response takes back within the learning delay."""
+    relaxation, lam = loop.trajectory.relaxation, loop.trajectory.lam
+    relax = partial(relaxation.prescribe, lam, 0.0)
+    changed = {0: (0.0, 0.0), 1: (1.0, 0.0), 2: (0.0, 1.0)}[relaxation.order]
+    rate = relax(*changed, 0.0) - relax(0.0, 0.0, 0.0)
+    return rate * loop.plant.dt * max(loop.deformer.delay, loop.deformer.hold)
+
+
+def nominal_points(loop: "Loop") -> list[Point]:
+    """The nominal motion at ``POINTS`` times."""
+    plant, trajectory, dt = loop.plant, loop.trajectory, loop.plant.dt
+    stride = max(1, plant.cycles // POINTS)
+    every = 1 if trajectory.trajectory.state else stride  # what is integrated needs every cycle
+    cycles = range(0, plant.cycles, every)
+    motions = nominal.sample(trajectory, [cycle * dt for cycle in cycles], every * dt)
+    n, where = len(plant.coordinates), trajectory.locate(plant.coordinates)
+    points = []
+    for cycle, (q_n, v_n, r_n) in list(zip(cycles, motions, strict=True))[:: stride // every]:
+        q, v = list(plant.state[:n]), list(plant.state[n : 2 * n])
+        r = [NOT_CONTROLLED] * n
+        active = slot(trajectory.slots, float(cycle * plant.cycle_time))
+        for i, at in enumerate(where):
+            q[at], v[at] = q_n[i], v_n[i]
+            if active in (-1, i):
+                r[at] = r_n[i]
+        points.append(Point(cycle * dt, q, v, r, loop.deformer.coefficients))
+    return points
+
+
+def along(engine: "Engine", loop: "Loop") -> list[Point]:
+    """The motion of a run at ``POINTS`` times, with the model as it was tuned then."""
+    topics = engine.topics()
+    state, command = topics["joint_states"], topics["command"]
+    tuned, names = topics.get("tuning"), loop.deformer.model.coefficient_names
+    follows = tuned is not None and names and tuned.names[: len(names)] == names
+    rest = loop.deformer.coefficients[len(names) :]
+    points = []
+    for k in range(0, engine.done, max(1, engine.done // POINTS)):
+        coefficients: Sequence[float] = loop.deformer.coefficients
+        if tuned is not None and follows:
+            coefficients = [*tuned.vectors["values"][k, : len(names)].tolist(), *rest]
+        points.append(
+            Point(
+                float(state.time[k]),
+                state.vectors["position"][k].tolist(),
+                state.vectors["velocity"][k].tolist(),
+                command.vectors["accelerations"][k].tolist(),
+                coefficients,
+            )
+        )
+    return points
+
+
+def spectrum(loop: "Loop", points: Iterable[Point]) -> NDArray[np.complex128]:
+    """Eigenvalues of W J, a row a point, sorted; NaN where it has fewer, or is not defined."""
+    controlled = loop.trajectory.locate(loop.plant.coordinates)
+    weights = dict(
+        zip(controlled, loop.deformer.weights_of(loop.trajectory.controlled), strict=True)
+    )
+    rows = []
+    for point in points:
+        row = np.full(len(controlled), complex(math.nan, math.nan))
+        J = jacobian(loop, point)
+        if np.isfinite(J).all():
+            where = [at for at in controlled if not math.isnan(point.r[at])]
+            found = np.linalg.eigvals(np.array([[weights[at]] for at in where]) * J)
+            row[: len(found)] = np.sort_complex(found)
+        rows.append(row)
+    return np.array(rows).reshape(len(rows), len(controlled))
+
+
+def jacobian(loop: "Loop", point: Point) -> NDArray[np.float64]:
+    """J = df/dr over the coordinates that are controlled at a point, by central differences."""
+    where = [
+        at
+        for at in loop.trajectory.locate(loop.plant.coordinates)
+        if not math.isnan(point.r[at])
+    ]
+    J = np.full((len(where), len(where)), math.nan)
+    try:
+        for j, at in enumerate(where):
+            step = 1e-3 * (1.0 + abs(point.r[at]))
+            up, down = list(point.r), list(point.r)
+            up[at] += step
+            down[at] -= step
+            high, low = response(loop, point, up), response(loop, point, down)
+            for i, row in enumerate(where):
+                J[i, j] = (high[row] - low[row]) / (2.0 * step)
+    except (ArithmeticError, ValueError):
+        pass
+    return J
+
+
+def response(loop: "Loop", point: Point, r: list[float]) -> list[float]:
+    """f(r): the exact plant's response to the approximate model's effort for r."""
+    n = len(point.q)
+    effort, out = [0.0] * n, [0.0] * n
+    loop.deformer.model.effort(point.coefficients, point.q, point.v, r, [0.0] * n, effort)
+    loop.plant.plant.response(loop.plant.coefficients, point.q, point.v, effort, out)
+    return out
+
+
+def warning(experiment: "Experiment") -> str:
+    """What is to be said, in one line, of an experiment's A before a run; empty: nothing."""
+    loop = experiment.loop()
+    if loop.deformer.transformation is None or loop.tuner.law.tunes == GAIN:
+        return ""
+    try:
+        gain = bounds(experiment)
+    except BadInput:
+        return ""
+    A, sign = gain.given, gain.sign
+    more = f"fpt gain {experiment.name}"
+    if experiment.variant != "adaptive":
+        more += f" --variant {experiment.variant}"
+    low, high = gain.range
+    interval = f"({low:.4g}, {high:.4g})"
+    hard = gain.hard_onset
+    onset = f"hard onset of chattering at {sign * hard:.4g}" if hard is not None else ""
+    if sign == 0:
+        least, greatest = gain.eigenvalues
+        return (
+            "no fpt_deformer.A contracts along the nominal motion, where the response's "
+            f"eigenvalues are between {least:.4g} and {greatest:.4g} ({more})"
+        )
+    held = loop.tuner.guards and A * sign > 0.0  # the precursor guard lowers |A| by itself
+    if held:
+        return ""
+    if not gain.contracts(A):
+        return (
+            f"fpt_deformer.A = {A:g} is outside the range {interval} in which the iteration "
+            f"contracts, it {_verb(gain.behaviour(A))} ({onset + '; ' if onset else ''}{more})"
+        )
+    if hard is not None and abs(A) >= hard:
+        return (
+            f"fpt_deformer.A = {A:g} may chatter, it is beyond the {onset} (small errors decay "
+            f"in {interval}; {more})"
+        )
+    return ""
+
+
+def _verb(behaviour: str) -> str:
+    return {
+        TWO_CYCLE: "chatters in a two-cycle",
+        DOUBLING: "chatters, its period doubled",
+        DOUBLING_TO_CHAOS: "chatters, periodically or in chaos",
+        CHAOS: "is chaotic",
+    }.get(behaviour, behaviour)
