@@ -23,9 +23,11 @@ def list_experiments(json: Json = False) -> None:
     if json:
         print_json({"experiments": experiments})
         return
-    from rich.table import Table
+    from rich.table import Column, Table
 
-    table = Table("experiment", "variant", "what it shows", "thesis", box=None, pad_edge=False)
+    names = Column("experiment", no_wrap=True), Column("variant", no_wrap=True)
+    shows_column = Column("what it shows", overflow="fold")
+    table = Table(*names, shows_column, "thesis", box=None, pad_edge=False)
     for each in experiments:
         first = True
         variants = each["variants"]

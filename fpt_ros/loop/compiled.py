@@ -66,6 +66,9 @@ def _remove_stale(base: Path) -> None:
             continue
 
 
+OPTIONS = {"error_model": "numpy", "_nrt": False}
+"""Division by zero gives inf or NaN; no reference counts, as nothing is allocated."""
+
 _registered: set[Callable[..., Any]] = set()
 
 
@@ -75,7 +78,7 @@ def _register_helpers() -> None:
 
     for function in laws.HELPERS:
         if function not in _registered:
-            register_jitable(error_model="numpy")(function)
+            register_jitable(forceinline=True, **OPTIONS)(function)
             _registered.add(function)
 
 
@@ -98,7 +101,7 @@ def law(function: Callable[..., Any], signature: str) -> Any:
     """A law as machine code, to be given to a compiled loop."""
     numba = _numba()
     _register_helpers()
-    return numba.njit(type_of(signature), cache=True, error_model="numpy")(function)
+    return numba.njit(type_of(signature), cache=True, **OPTIONS)(function)
 
 
 @cache
@@ -109,4 +112,4 @@ def loop(function: Callable[..., Any], functions: tuple[str, ...], arguments: st
     kinds = [numba.types.FunctionType(type_of(signature)) for signature in functions]
     whole = type_of(arguments)
     signature = whole.return_type(*kinds, *whole.args)
-    return numba.njit(signature, cache=True, error_model="numpy")(function)
+    return numba.njit(signature, cache=True, **OPTIONS)(function)

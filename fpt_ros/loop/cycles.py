@@ -7,8 +7,6 @@ import math
 from collections.abc import Callable
 from typing import Any
 
-import numpy as np
-
 from fpt_ros.denoising import streaming
 from fpt_ros.disturbances import FORCE
 from fpt_ros.error_relaxation import RELAX
@@ -21,8 +19,6 @@ from fpt_ros.plants import EFFORT, REGRESSOR, RESPONSE
 from fpt_ros.trajectories import NOMINAL
 from fpt_ros.transformations import DEFORM
 from fpt_ros.tuning import UPDATE
-zeros: Any = np.zeros
-
 FUNCTIONS = (
     streaming.UPDATE,
     NOMINAL,
@@ -44,6 +40,7 @@ ARGUMENTS = (
     "ww"  # where, tuned_where
     + "v" * 12  # constants
     + "v" * 12  # states
+    + "vvv"  # work space: Y, E, and 6 n + 4 c numbers
     + "m" * 13  # the messages' vectors, a row a cycle
     + "i"
 )
@@ -112,6 +109,9 @@ def run(
     plant: Any,
     friction: Any,
     command: Any,
+    Y: Any,
+    error: Any,
+    work: Any,
     js_position: Any,
     js_velocity: Any,
     js_effort: Any,
@@ -133,12 +133,12 @@ def run(
         states are then not those of its start.
     """
     n, c = js_position.shape[1], d_position.shape[1]
-    rows = len(command) - 2 * n  # work vectors of Y: its rows
-    w, a, q = zeros(n), zeros(n), zeros(n)
-    v, acting, full = zeros(n), zeros(n), zeros(n)
-    r_c, h_c, out_c = zeros(c), zeros(c), zeros(c)
-    Y, error, h_tuner = zeros(rows * len(values)), zeros(rows), zeros(len(tuned_where))
-    none = zeros(0)
+    w, a, q = work[:n], work[n : 2 * n], work[2 * n : 3 * n]
+    v, acting, full = work[3 * n : 4 * n], work[4 * n : 5 * n], work[5 * n : 6 * n]
+    at = 6 * n
+    r_c, h_c, out_c = work[at : at + c], work[at + c : at + 2 * c], work[at + 2 * c : at + 3 * c]
+    h_tuner = work[at + 3 * c : at + 3 * c + len(tuned_where)]
+    none = work[:0]
     for k in range(first, last_cycle):
         t = k * cycle_time / 1000000000
         measure(plant, sigma_q, sigma_v, noise, k, js_position[k], js_velocity[k])

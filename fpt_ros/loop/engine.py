@@ -85,7 +85,8 @@ class Engine:
         parts = tuner.parts() if tuner.active else (array("d"),) * 5
         motion, errors = trajectory.memory()
         body, friction = plant.memory()
-        self._carry = np.full(2 * n + tuner.rows, np.nan)
+        self._carry = np.full(2 * n, np.nan)
+        c = len(trajectory.controlled)
         self._fixed = (
             plant.cycle_time,
             int(tuner.active),
@@ -137,6 +138,9 @@ class Engine:
             _view(body),
             _view(friction),
             self._carry,
+            np.zeros(tuner.rows * (len(parts[0]))),
+            np.zeros(tuner.rows),
+            np.zeros(6 * n + 4 * c),
         )
         self._functions = functions
         self._rows = {

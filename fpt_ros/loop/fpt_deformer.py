@@ -89,8 +89,9 @@ def deform_response(
     n, c = len(out_r), len(desired)
     count = int(state[0])
     state[0] = count + 1.0
-    past, seen = 1 + count % delay * n, 1 + delay * n
-    now, then = seen + count % delay * n, seen + (count + 1) % delay * n
+    turn = count % delay if delay > 1 else 0
+    past, seen = 1 + turn * n, 1 + delay * n
+    now, then = seen + turn * n, seen + (turn + 1 if turn + 1 < delay else 0) * n
     for i in range(n):
         state[now + i] = response[i]
         full_s[i] = 0.0
