@@ -10,14 +10,18 @@ from collections.abc import Iterable
 from pathlib import Path
 
 from fpt_ros import registry
+from fpt_ros.denoising.streaming import ORDER
 from fpt_ros.loop import description
 from fpt_ros.loop.approximate_model import MODEL
-from fpt_ros.loop.denoiser import PARAMETERS as DENOISER
+from fpt_ros.loop.denoiser import METHOD
 from fpt_ros.loop.fpt_deformer import PARAMETERS as DEFORMER
-from fpt_ros.loop.parameter_tuner import METHOD
+from fpt_ros.loop.parameter_tuner import PARAMETERS as TUNER
+from fpt_ros.loop.parameter_tuner import TUNE_FROM
 from fpt_ros.loop.plant_simulator import STRUCTURE
+from fpt_ros.loop.stage import REALTIME
 from fpt_ros.loop.trajectory_generator import PARAMETERS as TRAJECTORY
 from fpt_ros.parameters import Parameter, prefixed
+from fpt_ros.tuning import COEFFICIENTS, GAIN, WEIGHTS
 
 PAGE = Path(__file__).with_name("parameters.md")
 
@@ -28,6 +32,12 @@ TYPES = {
     "str": "string",
     "floats": "double[]",
     "strings": "string[]",
+}
+
+TUNED = {
+    COEFFICIENTS: "the model's coefficients",
+    GAIN: "the gain A",
+    WEIGHTS: "the weights of the response errors",
 }
 
 HEAD = """\
@@ -64,12 +74,21 @@ def page() -> str:
         plant = registry.plant(name)
         parts.append(f"With `plant: {name}` ({coordinates(plant.coordinates, plant.units)}):\n")
         parts.append(table(prefixed("exact", plant.parameters)))
-    parts += ["## denoiser\n", words("method", "filters"), table(DENOISER)]
+    for name in registry.names("disturbances"):
+        parts += own(f"disturbance.kind: {name}", registry.disturbance(name).parameters, True)
+    parts += ["## denoiser\n", words("method", "filters"), table((METHOD, ORDER, REALTIME))]
+    for name in registry.names("filters"):
+        parts += own(f"method: {name}", registry.streaming_filter(name).parameters)
     parts += ["## trajectory_generator\n", words("trajectory", "trajectories"), table(TRAJECTORY)]
-    parts += ["## parameter_tuner\n", words("method", "tuning", "none"), table((METHOD,))]
+    for name in registry.names("trajectories"):
+        parts += own(f"trajectory: {name}", registry.trajectory(name).parameters)
+    parts += ["## parameter_tuner\n", words("method", "tuning", "none"), table(TUNER)]
+    parts += ["With any method but `none`:\n", table((TUNE_FROM,))]
     for name in registry.names("tuning"):
-        parts.append(f"With `method: {name}`, beside `model` and `approximate` (below):\n")
-        parts.append(table(registry.tuning_law(name).parameters))
+        law = registry.tuning_law(name)
+        beside = ", beside `model` and `approximate` (below)" if law.tunes == COEFFICIENTS else ""
+        parts.append(f"With `method: {name}`, which tunes {TUNED[law.tunes]}{beside}:\n")
+        parts.append(table(law.parameters))
     parts += ["## fpt_deformer\n", words("transformation", "transformations", "none")]
     parts.append(table((*DEFORMER, MODEL)))
     for name in registry.names("transformations"):
@@ -82,11 +101,21 @@ def page() -> str:
     )
     for name in registry.names("models"):
         model = registry.model(name)
+        if not model.parameters:
+            continue
         tuned = ", ".join(f"`{each}`" for each in model.coefficient_names)
         parts.append(f"With `model: {name}` (coefficients on `tuning`: {tuned}):\n")
         parts.append(table(prefixed("approximate", model.parameters)))
     parts += ["## recorder\n", table(description.PARAMETERS)]
     return "\n".join(parts)
+
+
+def own(choice: str, parameters: Iterable[Parameter], disturbance: bool = False) -> list[str]:
+    """The parameters that a choice brings with it."""
+    rows = tuple(parameters)
+    if not rows:
+        return []
+    return [f"With `{choice}`:\n", table(prefixed("disturbance", rows) if disturbance else rows)]
 
 
 def words(parameter: str, kind: str, *more: str) -> str:

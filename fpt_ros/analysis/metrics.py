@@ -106,17 +106,21 @@ def _chatter(run: Run) -> float | None:
 
 
 def _final_parameters(run: Run) -> dict[str, float | None]:
+    """What the controller believed at the end: the model's parameters, and all that was tuned."""
     tuning = run.topics.get("tuning")
+    found: dict[str, float | None] = {}
     if tuning is not None and len(tuning.stamps):
         last = tuning.vectors["values"][-1]
-        return {name: finite(value) for name, value in zip(tuning.names, last, strict=True)}
+        found = {name: finite(value) for name, value in zip(tuning.names, last, strict=True)}
+    if set(found) & signals.coefficient_names(run):
+        return found
     prefix = "approximate."
-    node = run.parameters.get("fpt_deformer", {})
-    return {
+    own = {
         name.removeprefix(prefix): signals.parameter_number(run, "fpt_deformer", name)
-        for name in node
+        for name in run.parameters.get("fpt_deformer", {})
         if name.startswith(prefix)
     }
+    return {**own, **found}
 
 
 @dataclass(frozen=True)

@@ -186,6 +186,14 @@ def effort_unit(run: Run, coordinate: str) -> str:
     return plant.effort_units[plant.coordinates.index(coordinate)]
 
 
+def coefficient_names(run: Run) -> set[str]:
+    """Names of the model's coefficients; empty where the model is not installed here."""
+    try:
+        return set(registry.model(str(parameter(run, "fpt_deformer", "model"))).coefficient_names)
+    except BadInput:
+        return set()
+
+
 def exact_coefficients(run: Run) -> dict[str, float]:
     """The model's coefficients as they would be with the plant's exact parameters, by name.
 

@@ -212,7 +212,7 @@ class Engine:
         if topic is DESIRED and self._loop.trajectory.slots:
             absent = np.isnan(vectors["accelerations"])
             had_turns = ~absent.all(axis=0)
-            names = tuple(name for name, had in zip(names, had_turns, strict=True) if had)
+            names = tuple(names[i] for i in np.flatnonzero(had_turns))
             vectors = {
                 name: np.where(absent, np.nan, matrix)[:, had_turns]
                 for name, matrix in vectors.items()
