@@ -111,6 +111,11 @@ setup(
             "weights = fpt_ros.tuning.weights:TUNED_WEIGHTS",
         ],
         "fpt_ros.filters": [
+            "adaptive_savgol = fpt_ros.denoising.streaming.adaptive_savgol:ADAPTIVE_SAVGOL",
+            "finite_difference = fpt_ros.denoising.streaming.finite_difference:FINITE_DIFFERENCE",
+            "kalman_bank = fpt_ros.denoising.streaming.kalman_bank:KALMAN_BANK",
+            "savgol = fpt_ros.denoising.streaming.savgol:SAVGOL",
+            "wavelet = fpt_ros.denoising.streaming.wavelet:WAVELET",
             "none = fpt_ros.denoising.streaming.difference:DIFFERENCE",
             "fitzhugh_nagumo_observer = "
             "fpt_ros.denoising.streaming.fitzhugh_nagumo_observer:FITZHUGH_NAGUMO_OBSERVER",

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from fpt_ros import registry
 from fpt_ros.errors import BadInput
 from fpt_ros.loop.nominal import sample
+from fpt_ros.loop.plant_simulator import PlantSimulator
 from fpt_ros.loop.run import Array, Run
 from fpt_ros.loop.trajectory_generator import TrajectoryGenerator
 from fpt_ros.messages.frames import SECOND
@@ -26,6 +27,8 @@ CONTROLLER_ONLY = ("K_D",)
 @dataclass(frozen=True)
 class Motion:
     """Nominal and realised motion of one controlled coordinate, (N,) each.
+
+    Measurement noise that the simulator has added is taken out again.
 
     Attributes:
         time: since the run's first stamp [s].
@@ -110,6 +113,10 @@ def motion(run: Run, coordinate: str) -> Motion:
     if coordinate not in desired.names or coordinate not in measured.names:
         return Motion(*[np.empty(0)] * 5)
     stamps, i, j = np.intersect1d(desired.stamps, measured.stamps, return_indices=True)
+    position = measured.column("position", coordinate)[j] - _noise(run, coordinate, stamps)
+    velocity = measured.column("velocity", coordinate)[j]
+    if np.isnan(velocity).all():  # not measured: what the denoiser makes of it
+        velocity = _estimated_velocity(run, coordinate, stamps)
     nominal = desired.column("positions", coordinate)[i]
     nominal_velocity = desired.column("velocities", coordinate)[i]
     time = seconds(run, stamps)
@@ -120,10 +127,31 @@ def motion(run: Run, coordinate: str) -> Motion:
     return Motion(
         time,
         nominal,
-        measured.column("position", coordinate)[j],
+        position,
         nominal_velocity,
-        measured.column("velocity", coordinate)[j],
+        velocity,
     )
+
+
+def _noise(run: Run, coordinate: str, stamps: NDArray[np.int64]) -> Array | float:
+    """The noise that the simulator added to the position: errors are those of the plant itself."""
+    if not parameter_number(run, PlantSimulator.name, "noise.position"):
+        return 0.0
+    plant = PlantSimulator(run.parameters[PlantSimulator.name])
+    n, at = len(plant.coordinates), plant.coordinates.index(coordinate)
+    table = np.asarray(plant.noise(), dtype=np.float64).reshape(plant.cycles, 2 * n)
+    noise: Array = plant.sigma[0] * table[(stamps - origin(run)) // plant.cycle_time, at]
+    return noise
+
+
+def _estimated_velocity(run: Run, coordinate: str, stamps: NDArray[np.int64]) -> Array:
+    estimate = run.topics.get("state_estimate")
+    if estimate is None:
+        return np.full(len(stamps), np.nan)
+    _, i, j = np.intersect1d(stamps, estimate.stamps, return_indices=True)
+    found = np.full(len(stamps), np.nan)
+    found[i] = estimate.column("velocities", coordinate)[j]
+    return found
 
 
 def _nominal(run: Run, coordinate: str, time: Array) -> tuple[Array, Array]:

@@ -49,6 +49,7 @@ def cache_directory() -> Path:
 def _numba() -> Any:
     """Numba, told where its cache is."""
     import numba
+
     if not os.environ.get("NUMBA_CACHE_DIR"):
         folder = cache_directory()
         if not folder.exists():

@@ -10,6 +10,7 @@ from typing import Any
 from fpt_ros.denoising import streaming
 from fpt_ros.disturbances import FORCE
 from fpt_ros.error_relaxation import RELAX
+from fpt_ros.loop.denoiser import synchronise
 from fpt_ros.loop.fpt_deformer import deform_response
 from fpt_ros.loop.parameter_tuner import remember, tune, watch
 from fpt_ros.loop.plant_simulator import GOOD, integrate, measure
@@ -19,6 +20,7 @@ from fpt_ros.plants import EFFORT, REGRESSOR, RESPONSE
 from fpt_ros.trajectories import NOMINAL
 from fpt_ros.transformations import DEFORM
 from fpt_ros.tuning import UPDATE
+
 FUNCTIONS = (
     streaming.UPDATE,
     NOMINAL,
@@ -35,13 +37,13 @@ FUNCTIONS = (
 ARGUMENTS = (
     "iii"  # first, last, cycle_time
     "iiiiiiiii"  # has_tuner, wants, reference, guards, kind, tuned, size, factor, adapts
-    "iiiii"  # delay, hold, hit, order, substeps
+    "iiiiiii"  # delay, hold, hit, order, substeps, all_measured, synchronised
     "fffffffff"  # dt, lam, tune_from, adaptive_from, gain, sigma_q, sigma_v, h, limit
     "ww"  # where, tuned_where
     + "v" * 12  # constants
-    + "v" * 12  # states
+    + "v" * 14  # states
     + "vvv"  # work space: Y, E, and 6 n + 4 c numbers
-    + "m" * 13  # the messages' vectors, a row a cycle
+    + "m" * 14  # the messages' vectors, a row a cycle
     + "i"
 )
 """Signature of the rest of its arguments, and of its result."""
@@ -74,6 +76,8 @@ def run(
     hit: int,
     order: int,
     substeps: int,
+    all_measured: int,
+    synchronised: int,
     dt: float,
     lam: float,
     tune_from: float,
@@ -98,6 +102,8 @@ def run(
     position_limit: Any,
     noise: Any,
     filter_state: Any,
+    second_state: Any,
+    second_motion: Any,
     motion: Any,
     errors: Any,
     values: Any,
@@ -118,6 +124,7 @@ def run(
     se_position: Any,
     se_velocity: Any,
     se_response: Any,
+    se_deformed: Any,
     d_position: Any,
     d_velocity: Any,
     d_response: Any,
@@ -141,13 +148,15 @@ def run(
     none = work[:0]
     for k in range(first, last_cycle):
         t = k * cycle_time / 1000000000
-        measure(plant, sigma_q, sigma_v, noise, k, js_position[k], js_velocity[k])
+        measure(plant, sigma_q, sigma_v, noise, k, all_measured, js_position[k], js_velocity[k])
         for i in range(n):
             js_effort[k, i] = plant[2 * n + i]
         if k == 0:
             for i in range(n):
-                se_position[k, i], se_velocity[k, i] = js_position[k, i], js_velocity[k, i]
-                se_response[k, i] = math.nan
+                se_position[k, i], se_velocity[k, i] = js_position[k, i], 0.0
+                if not math.isnan(js_velocity[k, i]):
+                    se_velocity[k, i] = js_velocity[k, i]
+                se_response[k, i], se_deformed[k, i] = math.nan, math.nan
         else:
             filter_update(
                 filter_constants,
@@ -159,6 +168,20 @@ def run(
                 se_velocity[k],
                 se_response[k],
             )
+            for i in range(n):
+                se_deformed[k, i] = math.nan
+            if synchronised:
+                synchronise(
+                    filter_update,
+                    filter_constants,
+                    second_state,
+                    second_motion,
+                    dt,
+                    command[:n],
+                    w,
+                    a,
+                    se_deformed[k],
+                )
         elapsed = dt if k > 0 else 0.0
         prescribe(
             nominal,
@@ -257,6 +280,7 @@ def run(
             se_position[k],
             se_velocity[k],
             se_response[k],
+            se_deformed[k],
             d_response[k],
             d_error[k],
             r_c,

@@ -103,6 +103,8 @@ class Engine:
             plant.hit,
             plant.plant.order,
             plant.substeps,
+            int(plant.all_measured),
+            int(denoiser.synchronised),
             plant.cycle_time / SECOND,
             trajectory.lam,
             tuner.tune_from,
@@ -130,7 +132,7 @@ class Engine:
                     plant.noise(),
                 ),
             ),
-            _view(denoiser.state),
+            *map(_view, denoiser.parts()),
             _view(motion),
             _view(errors),
             *map(_view, parts),
@@ -246,9 +248,9 @@ def explain(loop: Loop, cycle: int, command: Command | None) -> None:
     for stage in (loop.denoiser, loop.trajectory, loop.tuner, loop.deformer):
         stage.clock[0], stage.clock[1] = (0, stamp - plant.cycle_time) if cycle else (-1, -1)
     if cycle == 0:
-        loop.denoiser.constants = []
         loop.denoiser.state = array("d")
-    estimate = loop.denoiser.step(plant.measure(stamp, cycle))
+    seen = (command,) if loop.denoiser.synchronised else ()
+    estimate = loop.denoiser.step(plant.measure(stamp, cycle), *seen)
     desired = loop.trajectory.step(estimate)
     tuning = None
     if loop.tuner.active:

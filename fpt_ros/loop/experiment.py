@@ -9,7 +9,7 @@ from typing import cast
 from fpt_ros.error_relaxation import RELAXATIONS
 from fpt_ros.errors import BadInput
 from fpt_ros.loop import description, parameter_file
-from fpt_ros.loop.denoiser import Denoiser
+from fpt_ros.loop.denoiser import SYNCHRONISED, Denoiser
 from fpt_ros.loop.fpt_deformer import FptDeformer
 from fpt_ros.loop.locate import config_directory
 from fpt_ros.loop.parameter_file import ParameterFile
@@ -140,6 +140,7 @@ def load(
     for node, parameter, value in changes:
         _apply(file, node, parameter, value)
     file.nodes[description.NODE].update(experiment=path.stem, variant=variant)
+    _share_synchronised(file)
     in_loop = in_the_loop(file.nodes[ParameterTuner.name])
     for node, parameter, value in changes:
         if parameter == "await_tuning" and value != in_loop:
@@ -162,6 +163,16 @@ def complete(file: ParameterFile) -> dict[str, dict[str, Value]]:
         BadInput: as :func:`load`.
     """
     return {node: _resolve(node, file, file, set()) for node in SECTIONS if node in file.nodes}
+
+
+def _share_synchronised(file: ParameterFile) -> None:
+    """What the deformer is told, or all nodes, holds for deformer and denoiser alike."""
+    name = SYNCHRONISED.name
+    given = file.nodes[FptDeformer.name].get(name, file.shared.get(name))
+    for node in (FptDeformer.name, Denoiser.name):
+        file.nodes[node].pop(name, None)
+    if given is not None:
+        file.shared[name] = given
 
 
 def _check_nodes(path: Path, file: ParameterFile) -> None:

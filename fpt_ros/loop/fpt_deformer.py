@@ -7,6 +7,7 @@ from fpt_ros import registry
 from fpt_ros.errors import BadInput, Diverged
 from fpt_ros.laws import NOT_CONTROLLED, MutableVector, Vector, helper
 from fpt_ros.loop.approximate_model import model_parameters
+from fpt_ros.loop.denoiser import SYNCHRONISED
 from fpt_ros.loop.stage import REALTIME, Input, Stage, indices
 from fpt_ros.loop.tuned import NOTHING, Tuned, tuned_by
 from fpt_ros.messages.frames import Command, Desired, Names, StateEstimate, Tuning
@@ -47,6 +48,7 @@ PARAMETERS = (
         [],
         live=False,
     ),
+    SYNCHRONISED,
     Parameter("await_tuning", "a tuner is in the loop: wait for it", False, live=False),
     Parameter("effort_command", "publish the efforts for a ros2_control controller", False),
     REALTIME,
@@ -69,6 +71,7 @@ def deform_response(
     q: Vector,
     v: Vector,
     response: Vector,
+    shown: Vector,
     desired: Vector,
     s: Vector,
     r: MutableVector,
@@ -84,7 +87,8 @@ def deform_response(
     n: the rest. A coordinate that is controlled anew gets the desired response itself.
 
     ``state``: the number of cycles, the last d deformed responses and the last d observed ones, n
-    numbers each, in rings.
+    numbers each, in rings. ``shown`` is r as the filter shows it: where it is not NaN, the step is
+    made from it instead of from r_{k-d}.
     """
     n, c = len(out_r), len(desired)
     count = int(state[0])
@@ -101,7 +105,7 @@ def deform_response(
         at, before = where[i], state[past + where[i]]
         r[i], h[i] = desired[i], 0.0
         if adaptive and not math.isnan(before) and not math.isnan(desired[i]):
-            r[i] = before
+            r[i] = before if math.isnan(shown[at]) else shown[at]
             if not held:
                 h[i] = weights[i] * (state[then + at] - desired[i])
         if not math.isnan(desired[i]):
@@ -165,6 +169,8 @@ class FptDeformer(Stage):
         self.gain = self.constants[0]
         self.adaptive_from = number(values, "adaptive_from")
         self.delay, self.hold = integer(values, "learning_delay"), integer(values, "learning_hold")
+        if flag(values, "synchronised") and max(self.delay, self.hold) > 1:
+            raise BadInput(f"{self.name}: synchronised excludes learning_delay and learning_hold")
         if self.delay > 1 and self.hold > 1:
             raise BadInput(f"{self.name}: learning_delay and learning_hold exclude each other")
         self.initial = numbers(values, "initial_response")
@@ -198,7 +204,7 @@ class FptDeformer(Stage):
         Raises:
             Diverged: the transformation or the model left its domain.
         """
-        stamp, _, q, v, response = estimate
+        stamp, _, q, v, response, seen = estimate
         model, n, c = self.model, len(self.model.coordinates), len(desired.names)
         if desired.names is not self._names:
             self.check_controlled(desired.names)
@@ -232,6 +238,7 @@ class FptDeformer(Stage):
                 q,
                 v,
                 response,
+                seen,
                 desired.accelerations,
                 desired.combined_error,
                 r,

@@ -231,7 +231,7 @@ class ParameterTuner(Stage):
         ``rest``: the desired response of the cycle where the law needs it, and the command of the
         cycle before.
         """
-        stamp, names, q, v, response = estimate
+        stamp, names, q, v, response, _ = estimate
         command = rest[-1]
         desired = rest[0] if self.law.desired else None
         assert command is None or isinstance(command, Command)

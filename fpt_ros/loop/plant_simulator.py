@@ -33,6 +33,7 @@ STRUCTURE = (
     Parameter("disturbance.coordinate", "where it acts; empty: the first one", "", live=False),
     Parameter("disturbance.amplitude", "factor of the external force", 0.0),
     Parameter("disturbance.frequency", "factor of its time", 1.0, unit="1/s"),
+    Parameter("measured", "what the sensors tell", "all", choices=("all", "position"), live=False),
     Parameter("noise.position", "standard deviation of the position noise", 0.0, minimum=0.0),
     Parameter("noise.velocity", "standard deviation of the velocity noise", 0.0, minimum=0.0),
     Parameter("limit.acceleration", "beyond it the run has diverged", 1e9, above=0.0, live=False),
@@ -59,10 +60,14 @@ def measure(
     sigma_v: float,
     table: Vector,
     cycle: int,
+    all_measured: int,
     out_q: MutableVector,
     out_v: MutableVector,
 ) -> None:
-    """Position and velocity with the noise of ``cycle``: unit normal numbers times sigma."""
+    """Position and velocity with the noise of ``cycle``: unit normal numbers times sigma.
+
+    The velocity is NaN where it is not measured.
+    """
     n = len(out_q)
     at = 2 * n * cycle
     for i in range(n):
@@ -70,6 +75,8 @@ def measure(
         if len(table) > 0:
             out_q[i] += sigma_q * table[at + i]
             out_v[i] += sigma_v * table[at + n + i]
+        if not all_measured:
+            out_v[i] = math.nan
 
 
 @helper
@@ -175,6 +182,7 @@ class PlantSimulator(Stage):
         self.acceleration_limit = number(values, "limit.acceleration")
         self.position_limit = self._vector("limit.position", n, math.inf)
         self.sigma = number(values, "noise.position"), number(values, "noise.velocity")
+        self.all_measured = word(values, "measured") == "all"
         self._table: Vector | None = None
         self.timeout = round(number(values, "command_timeout") * SECOND)
         if not self.state:
@@ -226,7 +234,8 @@ class PlantSimulator(Stage):
         """Step 1: what is measured at ``stamp`` [ns], the noise of ``cycle`` added."""
         n = len(self.coordinates)
         q, v = [0.0] * n, [0.0] * n
-        measure(self.state, *self.sigma, self.noise(), cycle % self.cycles, q, v)
+        noise, everything = self.noise(), int(self.all_measured)
+        measure(self.state, *self.sigma, noise, cycle % self.cycles, everything, q, v)
         return JointStates(stamp, self.coordinates, q, v, self.state[2 * n : 3 * n])
 
     def safe_command(self, stamp: int) -> Command:

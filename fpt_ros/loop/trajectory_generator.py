@@ -160,7 +160,7 @@ class TrajectoryGenerator(Stage):
 
     def step(self, estimate: StateEstimate) -> Desired:
         """Nominal motion at t_k and the desired response, for the controlled coordinates."""
-        stamp, names, q, v, _ = estimate
+        stamp, names, q, v, _, _ = estimate
         if names is not self._names:
             self._where = self.locate(names)
             self._names = names

@@ -25,13 +25,17 @@ class JointStates(NamedTuple):
 
 
 class StateEstimate(NamedTuple):
-    """Filtered motion; ``accelerations`` is the observed response to r_{k-1}, NaN in cycle 0."""
+    """Filtered motion; ``accelerations`` is the observed response to r_{k-1}, NaN in cycle 0.
+
+    ``deformed`` is r as the filter shows it, NaN where the deformation is not synchronised.
+    """
 
     stamp: int
     names: Names
     positions: Vector
     velocities: Vector
     accelerations: Vector
+    deformed: Vector
 
 
 class Desired(NamedTuple):

@@ -39,7 +39,10 @@ class Topic:
 
 JOINT_STATES = Topic("joint_states", JOINT_STATE, JointStates, ("position", "velocity", "effort"))
 STATE_ESTIMATE = Topic(
-    "state_estimate", JOINT_TRAJECTORY, StateEstimate, ("positions", "velocities", "accelerations")
+    "state_estimate",
+    JOINT_TRAJECTORY,
+    StateEstimate,
+    ("positions", "velocities", "accelerations", "effort"),
 )
 DESIRED = Topic(
     "desired", JOINT_TRAJECTORY, Desired, ("positions", "velocities", "accelerations", "effort")

@@ -93,5 +93,5 @@ def test_trouble_is_an_inertia_that_is_not_positive_definite(theta, good):
     H = np.array(
         [[theta[1], theta[2], theta[0]], [theta[2], theta[2], 0.0], [theta[0], 0.0, theta[3]]]
     )
-    assert (np.linalg.eigvalsh(H).min() > 0.0) is good
+    assert bool(np.linalg.eigvalsh(H).min() > 0.0) is good
     assert (MODEL.trouble((*theta, K_D), (0.0, 0.0, 0.0)) == "") is good

@@ -51,3 +51,29 @@ def test_value_slope_and_curvature_are_continuous_at_a_knot(knot):
 
 def test_none_is_no_force():
     assert registry.disturbance("none").force((100.0, 1.0), [], 3.3, 1e-3, 1.0, 1.0) == 0.0
+
+
+def sine_noise(amplitude, frequency, noise, seed, cycles, dt=0.01):
+    law = registry.disturbance("sine_noise")
+    values = {
+        "disturbance.amplitude": amplitude,
+        "disturbance.frequency": frequency,
+        "disturbance.noise": noise,
+        "dt": dt,
+    }
+    constants = law.prepare(values, seed, cycles)
+    return np.array([law.force(constants, [], k * dt, dt, 0.0, 0.0) for k in range(cycles)])
+
+
+def test_sine_noise_is_a_sine_and_one_number_a_cycle():
+    """As the experiment has it: drawn at once from numpy's generator with the seed of the run."""
+    t = np.arange(20_000) * 0.01
+    expected = 0.15 * np.sin(4.0 * t)
+    expected += np.random.default_rng(12345).uniform(-0.15, 0.15, 20_000)
+    found = sine_noise(0.15, 4.0, 0.15, 12345, 20_000)
+    assert found == pytest.approx(expected, abs=1e-15)
+
+
+def test_the_noise_of_a_shorter_run_is_the_beginning_of_that_of_a_longer_one():
+    assert (sine_noise(1, 4, 0.1, 7, 50) == sine_noise(1, 4, 0.1, 7, 500)[:50]).all()
+    assert not (sine_noise(1, 4, 0.1, 7, 50) == sine_noise(1, 4, 0.1, 8, 50)).any()

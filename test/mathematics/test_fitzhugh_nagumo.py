@@ -1,6 +1,7 @@
 """The neuron: plant, model, nominal motion and observer of section 3.1.2."""
 
 import math
+from itertools import pairwise
 
 import numpy as np
 import pytest
@@ -90,7 +91,7 @@ def test_the_observer_integrates_the_recovery_from_the_measured_potential():
     state = [math.nan] * observer.state_size(constants, 2)
     observer.start(constants, state, [measured[0], 123.0], [0.0, 0.0])
     w = 0.0
-    for before, v in zip(measured[:-1], measured[1:], strict=True):
+    for before, v in pairwise(measured):
         rate = (before + a - b * w) / tau
         w += dt * rate
         out = [math.nan] * 2, [math.nan] * 2, [math.nan] * 2

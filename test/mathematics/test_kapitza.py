@@ -105,5 +105,8 @@ def test_gain_of_the_loop_with_the_approximate_parameters():
         expected = 0.8 * (3.7 - 2.2 * s2) / (3.0 - 2.0 * s2)
         assert gain(WITH_GRAVITY, q2) == pytest.approx(expected, rel=1e-9)
         assert 0.98 < gain(WITH_GRAVITY, q2) < 1.2
-    for q2 in (0.05, 0.1, 0.3):
-        assert gain(LITERAL, q2) == pytest.approx(0.987 * q2, abs=0.03 * q2)
+    for q2 in (1e-3, -1e-3, 0.1, 0.5):
+        s2 = math.sin(q2) ** 2
+        expected = 0.8 * (3.7 * abs(q2) - 2.2 * s2) / (3.0 - 2.0 * s2)
+        assert gain(LITERAL, q2) == pytest.approx(expected, rel=1e-9)
+    assert gain(LITERAL, 1e-4) / 1e-4 == pytest.approx(0.987, abs=1e-3)

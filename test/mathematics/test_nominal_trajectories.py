@@ -9,6 +9,7 @@ from hypothesis import strategies as st
 from scipy.interpolate import CubicSpline
 
 from fpt_ros import registry
+from fpt_ros.errors import BadInput
 from fpt_ros.trajectories import spline
 
 TIMES = st.floats(0.0, 50.0)
@@ -25,7 +26,8 @@ def nominal(name, amplitude, frequency, t, **own):
 
 
 def test_all_registered_trajectories_are_tested_here():
-    assert set(registry.names("trajectories")) >= {"sine", "spline"}
+    here = {"constant", "cosines", "sine", "spline"}
+    assert set(registry.names("trajectories")) == here | {"fitzhugh_nagumo"}  # in a file of its own
 
 
 @settings(deadline=None)
@@ -48,6 +50,62 @@ def test_amplitude_scales_and_frequency_stretches_time(name, t, amplitude, frequ
     unit = nominal(name, (1.0,), (1.0,), frequency * t)[:, 0]
     factors = amplitude * frequency ** np.arange(3)
     assert scaled == pytest.approx(factors * unit, rel=1e-9, abs=1e-9)
+
+
+OWN = {
+    "sine": {"offset": [0.5, -1.0]},
+    "cosines": {
+        "offset": [0.5, 1.5],
+        "second_amplitude": [0.1, 0.2],
+        "second_frequency": [5.0, 6.0],
+    },
+}
+
+
+@settings(deadline=None)
+@given(st.sampled_from(sorted(OWN)), TIMES)
+def test_rate_and_acceleration_are_the_derivatives_with_offset_and_second_tone(name, t):
+    amplitude, frequency, step = (0.2, 0.3), (2.0, 3.0), 1e-5
+    _, v, a = nominal(name, amplitude, frequency, t, **OWN[name])
+    before, after = (
+        nominal(name, amplitude, frequency, x, **OWN[name]) for x in (t - step, t + step)
+    )
+    difference = (after - before) / (2.0 * step)
+    assert difference[0] == pytest.approx(v, abs=1e-8)
+    assert difference[1] == pytest.approx(a, abs=1e-7)
+
+
+def test_cosines_begin_at_their_offset_at_rest():
+    q, v, a = nominal("cosines", (0.2, 0.2), (2.0, 3.0), 0.0, **OWN["cosines"])
+    assert q.tolist() == [0.5, 1.5]
+    assert v.tolist() == [0.0, 0.0]
+    assert a == pytest.approx([0.2 * 4.0 + 0.1 * 25.0, 0.2 * 9.0 + 0.2 * 36.0])
+
+
+def test_cosines_of_the_coupled_masses():
+    """q1 = 0.5 + 0.2 (1 - cos 2t) + 0.1 (1 - cos 5t) (section 2.5)."""
+    t = 0.83
+    q, _, _ = nominal("cosines", (0.2, 0.2), (2.0, 3.0), t, **OWN["cosines"])
+    assert q[0] == pytest.approx(
+        0.5 + 0.2 * (1 - math.cos(2 * t)) + 0.1 * (1 - math.cos(5 * t)), rel=1e-15
+    )
+
+
+def test_an_offset_only_moves_the_sine():
+    here, there = (nominal("sine", (0.3,), (2.0,), 0.7, offset=x) for x in ([], [1.5]))
+    assert (there - here)[:, 0] == pytest.approx([1.5, 0.0, 0.0], abs=1e-15)
+
+
+def test_a_list_of_another_length_is_refused():
+    with pytest.raises(BadInput, match=r"trajectory_generator.offset: 1 numbers given, 2 needed"):
+        nominal("sine", (0.3, 0.3), (2.0, 2.0), 0.7, offset=[1.5])
+
+
+def test_a_constant_is_its_amplitude_at_rest():
+    for t in (0.0, 7.0):
+        q, v, a = nominal("constant", (-2.0, 3.0), (1.0, 1.0), t)
+        assert q.tolist() == a.tolist() == [-2.0, 3.0]
+        assert v.tolist() == [0.0, 0.0]
 
 
 def test_sine():

@@ -48,7 +48,7 @@ def test_energy_changes_by_the_power_of_the_torques(parameters, q, v, effort):
 def test_an_exact_model_inverts_the_plant_for_the_coordinate_of_the_turn(
     parameters, q, v, drive, active
 ):
-    m1, m2, L1, L2, _ = parameters
+    _, m2, L1, L2, _ = parameters
     coupling = m2 * L2 * (L2 + L1 * math.cos(q[1]))
     assume(active == 1 or abs(coupling) > 0.05)  # the torque cannot turn q1 at H12 = 0
     a = respond(PLANT, parameters, q, v, (0.0, drive))
