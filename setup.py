@@ -36,6 +36,7 @@ setup(
         "numpy",
         "scipy",
         "numba",
+        "PyWavelets",
         "ruamel.yaml",
         "typer",
         "rich",

@@ -28,7 +28,7 @@ CONTROLLER_ONLY = ("K_D",)
 class Motion:
     """Nominal and realised motion of one controlled coordinate, (N,) each.
 
-    Measurement noise that the simulator has added is taken out again.
+    Noise and delay that the simulator has put into the measurement are taken out again.
 
     Attributes:
         time: since the run's first stamp [s].
@@ -124,12 +124,14 @@ def motion(run: Run, coordinate: str) -> Motion:
     if parameter(run, "trajectory_generator", "time_sharing") and away.any():
         nominal, nominal_velocity = nominal.copy(), nominal_velocity.copy()
         nominal[away], nominal_velocity[away] = _nominal(run, coordinate, time[away])
+    late = int(parameter_number(run, "plant_simulator", "measurement_delay") or 0)
+    count = max(len(time) - late, 0)  # what was measured late belongs to an earlier cycle
     return Motion(
-        time,
-        nominal,
-        position,
-        nominal_velocity,
-        velocity,
+        time[:count],
+        nominal[:count],
+        position[late:],
+        nominal_velocity[:count],
+        velocity[late:],
     )
 
 

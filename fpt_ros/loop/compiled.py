@@ -54,7 +54,7 @@ def _numba() -> Any:
         folder = cache_directory()
         if not folder.exists():
             _remove_stale(folder.parent)
-        numba.config.CACHE_DIR = str(folder)
+        numba.config.CACHE_DIR = str(folder)  # type: ignore[attr-defined]
     return numba
 
 

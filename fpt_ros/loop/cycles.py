@@ -41,7 +41,7 @@ ARGUMENTS = (
     "fffffffff"  # dt, lam, tune_from, adaptive_from, gain, sigma_q, sigma_v, h, limit
     "ww"  # where, tuned_where
     + "v" * 12  # constants
-    + "v" * 14  # states
+    + "v" * 15  # states
     + "vvv"  # work space: Y, E, and 6 n + 4 c numbers
     + "m" * 14  # the messages' vectors, a row a cycle
     + "i"
@@ -114,6 +114,7 @@ def run(
     deformer: Any,
     plant: Any,
     friction: Any,
+    past: Any,
     command: Any,
     Y: Any,
     error: Any,
@@ -148,7 +149,9 @@ def run(
     none = work[:0]
     for k in range(first, last_cycle):
         t = k * cycle_time / 1000000000
-        measure(plant, sigma_q, sigma_v, noise, k, all_measured, js_position[k], js_velocity[k])
+        measure(
+            plant, sigma_q, sigma_v, noise, k, all_measured, past, js_position[k], js_velocity[k]
+        )
         for i in range(n):
             js_effort[k, i] = plant[2 * n + i]
         if k == 0:

@@ -84,7 +84,7 @@ class Engine:
         tuned_where = tuner.where if tuner.active else ()
         parts = tuner.parts() if tuner.active else (array("d"),) * 5
         motion, errors = trajectory.memory()
-        body, friction = plant.memory()
+        body, friction, past = plant.memory()
         self._carry = np.full(2 * n, np.nan)
         c = len(trajectory.controlled)
         self._fixed = (
@@ -139,6 +139,7 @@ class Engine:
             _view(deformer.state),
             _view(body),
             _view(friction),
+            _view(past),
             self._carry,
             np.zeros(tuner.rows * (len(parts[0]))),
             np.zeros(tuner.rows),

@@ -34,6 +34,14 @@ STRUCTURE = (
     Parameter("disturbance.amplitude", "factor of the external force", 0.0),
     Parameter("disturbance.frequency", "factor of its time", 1.0, unit="1/s"),
     Parameter("measured", "what the sensors tell", "all", choices=("all", "position"), live=False),
+    Parameter(
+        "measurement_delay",
+        "cycles by which the sensors are late",
+        0,
+        minimum=0,
+        maximum=1000,
+        live=False,
+    ),
     Parameter("noise.position", "standard deviation of the position noise", 0.0, minimum=0.0),
     Parameter("noise.velocity", "standard deviation of the velocity noise", 0.0, minimum=0.0),
     Parameter("limit.acceleration", "beyond it the run has diverged", 1e9, above=0.0, live=False),
@@ -61,17 +69,25 @@ def measure(
     table: Vector,
     cycle: int,
     all_measured: int,
+    past: MutableVector,
     out_q: MutableVector,
     out_v: MutableVector,
 ) -> None:
     """Position and velocity with the noise of ``cycle``: unit normal numbers times sigma.
 
-    The velocity is NaN where it is not measured.
+    The velocity is NaN where it is not measured. ``past`` is a ring of motions, 2 n numbers each,
+    for sensors that are late, or empty.
     """
     n = len(out_q)
     at = 2 * n * cycle
+    length = len(past)
+    now = at % length if length > 0 else 0
+    then = (at + 2 * n) % length if length > 0 else 0
     for i in range(n):
         out_q[i], out_v[i] = state[i], state[n + i]
+        if length > 0:
+            past[now + i], past[now + n + i] = state[i], state[n + i]
+            out_q[i], out_v[i] = past[then + i], past[then + n + i]
         if len(table) > 0:
             out_q[i] += sigma_q * table[at + i]
             out_v[i] += sigma_v * table[at + n + i]
@@ -136,7 +152,8 @@ def integrate(
 class PlantSimulator(Stage):
     """The exact plant, integrated by explicit Euler with the force held over the cycle.
 
-    State: q, v and the effort that acted last, n each.
+    State: q, v and the effort that acted last, n each; that of the disturbance; with late sensors
+    the motions of the last cycles.
     """
 
     name = "plant_simulator"
@@ -189,6 +206,8 @@ class PlantSimulator(Stage):
             start = self._vector("initial_position", n, 0.0)
             start += self._vector("initial_velocity", n, 0.0)
             self.state.extend(start + [0.0] * (n + self.disturbance.state))
+            late = integer(values, "measurement_delay")
+            self.state.extend(start * (late + 1) if late else [])
 
     @property
     def coordinates(self) -> Names:
@@ -210,10 +229,11 @@ class PlantSimulator(Stage):
             raise BadInput(f"{self.name}.{name}: {len(given)} numbers given, {n} needed ({names})")
         return given or [default] * n
 
-    def memory(self) -> tuple[MutableVector, MutableVector]:
-        """The state in its two parts: of the plant, and of the disturbance."""
+    def memory(self) -> tuple[MutableVector, MutableVector, MutableVector]:
+        """The state in its parts: of the plant, of the disturbance, and the motions of the past."""
         split = 3 * len(self.coordinates)
-        return part(self.state, 0, split), part(self.state, split)
+        end = split + self.disturbance.state
+        return part(self.state, 0, split), part(self.state, split, end), part(self.state, end)
 
     def noise(self) -> Vector:
         """Unit normal numbers: for each cycle n for the positions, then n for the velocities.
@@ -235,7 +255,8 @@ class PlantSimulator(Stage):
         n = len(self.coordinates)
         q, v = [0.0] * n, [0.0] * n
         noise, everything = self.noise(), int(self.all_measured)
-        measure(self.state, *self.sigma, noise, cycle % self.cycles, everything, q, v)
+        plant, _, past = self.memory()
+        measure(plant, *self.sigma, noise, cycle % self.cycles, everything, past, q, v)
         return JointStates(stamp, self.coordinates, q, v, self.state[2 * n : 3 * n])
 
     def safe_command(self, stamp: int) -> Command:
@@ -251,7 +272,7 @@ class PlantSimulator(Stage):
             Diverged: an acceleration or a position is not finite or beyond its limit.
         """
         n, t = len(self.coordinates), stamp / SECOND
-        plant, friction = self.memory()
+        plant, friction, _ = self.memory()
         acting, q, v, a = [0.0] * n, [0.0] * n, [0.0] * n, [0.0] * n
         try:
             status = integrate(
