@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, cast
 from fpt_ros.errors import BadInput
 
 if TYPE_CHECKING:
+    from fpt_ros.denoising.offline import Method
     from fpt_ros.denoising.streaming import Filter
     from fpt_ros.disturbances import Disturbance
     from fpt_ros.plants import Model, Plant
@@ -83,3 +84,8 @@ def tuning_law(name: str) -> "TuningLaw":
 def streaming_filter(name: str) -> "Filter":
     """The causal filter registered as ``name``."""
     return cast("Filter", _load("filters", name))
+
+
+def denoiser(name: str) -> "Method":
+    """The denoiser of whole records registered as ``name``."""
+    return cast("Method", _load("denoisers", name))

@@ -3,12 +3,10 @@
 import base64
 import io
 import json
-import os
 from collections.abc import Sequence
 from dataclasses import dataclass
 from importlib.resources import files
 from pathlib import Path
-from tempfile import NamedTemporaryFile
 
 from jinja2 import Environment, StrictUndefined
 
@@ -17,6 +15,7 @@ from fpt_ros.analysis.figures import Chart, charts
 from fpt_ros.analysis.labels import run_labels
 from fpt_ros.analysis.metrics import baselines, comparison, summary
 from fpt_ros.analysis.tables import content
+from fpt_ros.analysis.whole_files import write_whole
 from fpt_ros.errors import BadInput
 from fpt_ros.loop.run import Run
 from fpt_ros.messages.frames import SECOND
@@ -69,29 +68,16 @@ def write_report(runs: Sequence[Run], directory: Path) -> Path:
     try:
         (directory / "figures").mkdir(parents=True, exist_ok=True)
         for name, chart in found.items():
-            _write(directory / "figures" / f"{name}.svg", pictures[name])
-            _write(directory / "figures" / f"{name}.png", _rendered(chart, "png"))
-        _write(directory / "summary.json", _numbers(runs, found).encode())
-        _write(directory / "index.html", page.encode())
+            write_whole(directory / "figures" / f"{name}.svg", pictures[name])
+            write_whole(directory / "figures" / f"{name}.png", _rendered(chart, "png"))
+        write_whole(directory / "summary.json", _numbers(runs, found).encode())
+        write_whole(directory / "index.html", page.encode())
     except OSError as error:
         reason = error.strerror or str(error)
         raise BadInput(
             f"cannot write the report to {directory}: {reason}; it takes a directory to write to"
         ) from error
     return directory / "index.html"
-
-
-def _write(path: Path, data: bytes) -> None:
-    """Replace a file by a whole new one."""
-    with NamedTemporaryFile(dir=path.parent, prefix=f".{path.name}.", delete=False) as file:
-        try:
-            file.write(data)
-            file.flush()
-            os.fchmod(file.fileno(), 0o644)
-            os.replace(file.name, path)
-        except BaseException:
-            os.unlink(file.name)
-            raise
 
 
 def _rendered(chart: Chart, kind: str) -> bytes:

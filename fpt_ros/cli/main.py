@@ -6,7 +6,7 @@ from typing import Any
 
 import typer
 
-from fpt_ros.cli import demo, gain, info, listing, report, run, simulate
+from fpt_ros.cli import demo, denoise, gain, info, listing, report, run, simulate
 from fpt_ros.errors import FptError
 
 INTERRUPTED = 130
@@ -24,6 +24,7 @@ app.command("simulate", help=simulate.simulate.__doc__)(simulate.simulate)
 app.command("run", help=run.run.__doc__)(run.run)
 app.command("report", help=report.report.__doc__)(report.report)
 app.command("gain", help=gain.gain.__doc__)(gain.gain)
+app.command("denoise", help=denoise.denoise.__doc__)(denoise.denoise)
 app.command("info", help=info.info.__doc__)(info.info)
 app.command("demo", help=demo.demo.__doc__)(demo.demo)
 

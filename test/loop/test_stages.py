@@ -18,6 +18,7 @@ from fpt_ros.messages.frames import Command, Desired, JointStates, StateEstimate
 MS = 1_000_000
 QV = ("q1", "q2", "q3")
 NAN = math.nan
+LOST = " (control is lost: fpt gain shows which fpt_deformer.A converges, and of which sign)"
 
 
 def stages(name="tora", variant="adaptive", *settings, **options):
@@ -38,7 +39,7 @@ def frames_of_the_engine(loop):
 
 
 def estimate(cycle, response, q=(0.1, 0.2, -0.1), v=(0.0, 0.0, 0.0)):
-    return StateEstimate(cycle * MS, QV, q, v, response)
+    return StateEstimate(cycle * MS, QV, q, v, response, [NAN] * 3)
 
 
 def desired(cycle, names, response):
@@ -226,7 +227,7 @@ def test_divergence_tells_time_and_coordinate():
     command = Command(0, QV, [NAN] * 3, [0.0, 1e4, 0.0])
     error = diverged(plant.advance, command, 1234 * MS)
     assert str(error).startswith("diverged at t = 1.234 s: the acceleration of q1, ")
-    assert str(error).endswith(" is over its limit of 10 in cycle 1234")
+    assert str(error).endswith(f" is over its limit of 10 in cycle 1234{LOST}")
     assert (error.time, error.cycle) == (1.234, 1234)
     assert (error.coordinate, error.quantity) == ("q1", "acceleration")
     assert (abs(error.value) > 10.0, error.limit) == (True, 10.0)
@@ -238,6 +239,7 @@ def test_divergence_of_a_position():
     error = diverged(plant.advance, Command(0, QV, [NAN] * 3, [0.0] * 3), 0)
     assert str(error) == (
         "diverged at t = 0 s: the position of q3, -2000, is over its limit of 1000 in cycle 0"
+        + LOST
     )
 
 
@@ -246,7 +248,8 @@ def test_divergence_of_an_effort(bad):
     plant = stages().plant
     error = diverged(plant.advance, Command(0, QV, [NAN] * 3, [0.0, bad, 0.0]), 5 * MS)
     assert (
-        str(error) == f"diverged at t = 0.005 s: the effort of q2, {bad}, is not finite in cycle 5"
+        str(error)
+        == f"diverged at t = 0.005 s: the effort of q2, {bad}, is not finite in cycle 5{LOST}"
     )
 
 
@@ -304,7 +307,7 @@ def test_the_integral_is_of_forward_rectangles_over_the_time_that_passed():
     trajectory = stages("tora", "adaptive", "trajectory_generator.amplitude=[0.0, 0.0]").trajectory
     integral, last = 0.0, 0.0
     for stamp, q3 in ((0, -1.0), (1, -0.5), (4, 0.25), (5, 0.0)):
-        frame = StateEstimate(stamp * MS, QV, (9.0, 0.0, q3), (9.0, 0.0, 0.0), [NAN] * 3)
+        frame = StateEstimate(stamp * MS, QV, (9.0, 0.0, q3), (9.0, 0.0, 0.0), [NAN] * 3, [NAN] * 3)
         out = trajectory.step(frame)
         integral += {0: 0.0, 1: 1e-3, 4: 3e-3, 5: 1e-3}[stamp] * last
         last = -q3
@@ -317,14 +320,14 @@ def test_time_of_the_trajectory_counts_from_its_first_cycle():
     trajectory = stages("vdp_rfpt").trajectory
     start = 1_700_000_000_000_000_000
     for k in (0, 700):
-        out = trajectory.step(StateEstimate(start + k * MS, ("q1",), [0.0], [0.0], [NAN]))
+        out = trajectory.step(StateEstimate(start + k * MS, ("q1",), [0.0], [0.0], [NAN], [NAN]))
         assert out.positions[0] == pytest.approx(1.5 * math.sin(2.0 * k * 1e-3), rel=1e-15)
         assert out.stamp == start + k * MS
 
 
 def test_the_trajectory_names_a_coordinate_that_the_plant_lacks():
     trajectory = stages().trajectory
-    frame = StateEstimate(0, ("q1", "q2"), [0.0] * 2, [0.0] * 2, [NAN] * 2)
+    frame = StateEstimate(0, ("q1", "q2"), [0.0] * 2, [0.0] * 2, [NAN] * 2, [NAN] * 2)
     with pytest.raises(BadInput, match=r"controlled: there is no coordinate 'q3', only q1, q2$"):
         trajectory.step(frame)
     assert indices(["b", "a"], ("a", "b", "c"), "x") == (1, 0)
@@ -411,7 +414,7 @@ def test_deformation_starts_at_its_time_from_the_desired_response():
 
 def test_tuning_gives_the_model_its_coefficients():
     deformer = stages("vdp_rfpt").deformer
-    frame = StateEstimate(0, ("q1",), [2.0], [0.0], [NAN])
+    frame = StateEstimate(0, ("q1",), [2.0], [0.0], [NAN], [NAN])
     tuning = Tuning(0, ("m", "mu", "mu_c", "k", "beta", "lambda"), [3.0, 0, 0, 10.0, 0, 0])
     command = deformer.step(frame, Desired(0, ("q1",), [0.0], [0.0], [5.0], [0.0]), tuning)
     assert command.effort == [3.0 * 5.0 + 10.0 * 2.0]
@@ -423,12 +426,12 @@ def test_tuning_gives_the_model_its_coefficients():
 def test_the_tuner_starts_with_the_approximate_model_and_then_follows_2_11():
     tuner = stages("vdp_rfpt", "adaptive", "parameter_tuner.alpha=2.0").tuner
     theta = np.array([9.0, 2.0, 7.0, 110.0, 0.9, 1.5])
-    first = tuner.step(StateEstimate(0, ("q1",), [0.5], [-1.0], [NAN]), None)
+    first = tuner.step(StateEstimate(0, ("q1",), [0.5], [-1.0], [NAN], [NAN]), None)
     assert first.names[:6] == ("m", "mu", "mu_c", "k", "beta", "lambda")
     assert first.names[6:] == ("precursor", "gain_factor")
     assert first.values == [*theta.tolist(), 0.0, 1.0]
     command = Command(0, ("q1",), [4.0], [60.0])
-    second = tuner.step(StateEstimate(MS, ("q1",), [9.9], [9.9], [3.0]), command)
+    second = tuner.step(StateEstimate(MS, ("q1",), [9.9], [9.9], [3.0], [NAN]), command)
     # q and v of cycle 0, where the force acted, and the response to it
     row = np.array([3.0, 0.25 * -1.0, 1.0, 0.5, 0.125, 0.03125])
     expected = theta + 1e-3 * 2.0 * (60.0 - row @ theta) * row / (row @ row + 1e-6)
