@@ -34,11 +34,12 @@ class Chart:
     figure: Figure
 
 
-def charts(runs: Sequence[Run]) -> dict[str, Chart]:
+def charts(runs: Sequence[Run], only: Sequence[str] = ()) -> dict[str, Chart]:
     """All figures that the runs have something for, by name, in the order of the page.
 
     Args:
         runs: one to about four, side by side in this order.
+        only: names of figures; empty: all.
 
     Returns:
         Of ``tracking``, ``tracking_error``, ``phase_trajectories``, ``responses``,
@@ -48,6 +49,8 @@ def charts(runs: Sequence[Run]) -> dict[str, Chart]:
     found = {}
     with style.settings():
         for name, build in _BUILDERS.items():
+            if only and name not in only:
+                continue
             panels = build(runs)
             if panels is not None and not panels.empty:
                 FigureCanvasAgg(panels.figure)

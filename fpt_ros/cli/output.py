@@ -11,10 +11,10 @@ if TYPE_CHECKING:
 
 
 class Progress(Protocol):
-    """Is told how many cycles are done."""
+    """Is told how much is done, in cycles or whatever is counted."""
 
     def __call__(self, done: int) -> None:
-        """``done`` cycles of the total."""
+        """``done`` of the total."""
 
 
 def print_json(result: Mapping[str, Any]) -> None:
@@ -30,10 +30,10 @@ def console() -> "Console":
 
 
 @contextmanager
-def progress_bar(what: str, total: int) -> Iterator[Progress]:
+def progress_bar(what: str, total: int, of: str = "cycles") -> Iterator[Progress]:
     """A bar on standard error with rate and time left; on a pipe nothing but its first line."""
     if not sys.stderr.isatty():
-        print(f"{what}: {total} cycles", file=sys.stderr)
+        print(f"{what}: {total} {of}", file=sys.stderr)
         yield lambda done: None
         return
     from rich.console import Console
@@ -50,7 +50,7 @@ def progress_bar(what: str, total: int) -> Iterator[Progress]:
         TextColumn("{task.description}"),
         BarColumn(),
         MofNCompleteColumn(),
-        TextColumn("cycles"),
+        TextColumn(of),
         TimeElapsedColumn(),
         TimeRemainingColumn(),
     )
