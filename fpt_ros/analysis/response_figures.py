@@ -8,6 +8,7 @@ from fpt_ros.analysis import signals, style
 from fpt_ros.analysis.labels import all_names, colour_of, realised
 from fpt_ros.analysis.panels import Panels
 from fpt_ros.loop.run import Array, Run
+from fpt_ros.loop.tuned import FACTOR
 
 _Window = tuple[float, float]
 """Excerpt of a run, first and last time [s]."""
@@ -98,10 +99,18 @@ def _driven(run: Run) -> list[str]:
     return [name for name in command.names if np.nan_to_num(command.column("effort", name)).any()]
 
 
+def _tuned(run: Run) -> list[str]:
+    """What the tuner publishes, but a guard's factor only where it has done something."""
+    tuning = run.topics["tuning"]
+    factor = tuning.names.index(FACTOR) if FACTOR in tuning.names else None
+    idle = factor is not None and bool((tuning.vectors["values"][:, factor] == 1.0).all())
+    return [name for name in tuning.names if not (idle and name == FACTOR)]
+
+
 def parameters(runs: Sequence[Run]) -> Panels | None:
     """Tuned parameters over time, with their exact values (Fig. 2.11)."""
     runs = [run for run in runs if "tuning" in run.topics]
-    rows = all_names(runs, lambda run: run.topics["tuning"].names)
+    rows = all_names(runs, _tuned)
     if not rows:
         return None
     panels = Panels.of(runs, rows, 1.7)

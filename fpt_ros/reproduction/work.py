@@ -17,7 +17,7 @@ from fpt_ros.loop.experiment import load
 from fpt_ros.loop.run import Run, describe
 from fpt_ros.reproduction import Case, Group, Outcome
 
-DPI = 80
+DPI = 100
 
 
 @dataclass(frozen=True)
