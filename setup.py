@@ -121,5 +121,19 @@ setup(
             "fitzhugh_nagumo_observer = "
             "fpt_ros.denoising.streaming.fitzhugh_nagumo_observer:FITZHUGH_NAGUMO_OBSERVER",
         ],
+        "fpt_ros.denoisers": [
+            "adaptive_savgol = fpt_ros.denoising.offline.adaptive_savgol:ADAPTIVE_SAVGOL",
+            "anytime = fpt_ros.denoising.offline.anytime:ANYTIME",
+            "auto = fpt_ros.denoising.offline.auto:AUTO",
+            "fuzzy = fpt_ros.denoising.offline.fuzzy:FUZZY",
+            "heursure = fpt_ros.denoising.offline.heursure:HEURSURE",
+            "improved = fpt_ros.denoising.offline.improved:IMPROVED",
+            "minimax = fpt_ros.denoising.offline.minimax:MINIMAX",
+            "savgol = fpt_ros.denoising.offline.savgol:SAVGOL",
+            "savgol_bank = fpt_ros.denoising.offline.savgol_bank:SAVGOL_BANK",
+            "sureshrink = fpt_ros.denoising.offline.sureshrink:SURESHRINK",
+            "undecimated = fpt_ros.denoising.offline.undecimated:UNDECIMATED",
+            "universal = fpt_ros.denoising.offline.universal:UNIVERSAL",
+        ],
     },
 )

@@ -4,7 +4,6 @@ import numpy as np
 
 from fpt_ros.loop import experiment
 from fpt_ros.loop.engine import Engine
-from fpt_ros.loop.run import Collector
 from fpt_ros.messages.topics import COMMAND, DESIRED, JOINT_STATES, STATE_ESTIMATE, TUNING
 
 
@@ -49,13 +48,6 @@ def stage_by_stage(loop, observe, cycles=None):
         command = loop.deformer.step(estimate, desired, *tuning)
         observe(COMMAND, command)
         plant.advance(command, stamp)
-
-
-def collected_stage_by_stage(loop, cycles=None):
-    """The same as arrays: topic -> series."""
-    collector = Collector()
-    stage_by_stage(loop, collector, cycles)
-    return collector.topics()
 
 
 def tracking_errors(topics):

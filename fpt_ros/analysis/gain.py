@@ -1,16 +1,17 @@
 """The range of the gain A in which the iteration contracts, and what happens outside it.
 
-Asked for r, the plant answers f(r): the exact response to the approximate model's effort for r. With
-J = df/dr over the controlled coordinates, their weights W, and the transformation's slope, a small
-response error h is multiplied by
+Asked for r, the plant answers f(r): the exact response to the approximate model's effort for r.
+With J = df/dr over the controlled coordinates, their weights W, and the transformation's slope, a
+small response error h is multiplied by
 
     1 + A slope lambda (1 + feedback),   lambda: the eigenvalues of W J
 
 once every ``learning_delay`` cycles. The feedback: what the response did to the state until it is
 used, the desired response takes back. A response that is one cycle old has changed q' by dt f, so
-that for a PID law feedback = 3 Lambda dt; with a delay of d cycles d times as much. (In a pure
-two-cycle of the loop q' itself alternates, and half of that is left: the limit is on the safe side
-by up to half the feedback.)
+that for a PID law feedback = 3 Lambda dt; with a delay of d cycles d times as much. (In a two-cycle
+q' itself alternates, and half of that is left: the limit is on the safe side by half the feedback,
+4.6575 instead of 4.699 for TORA, where an error of 1e-9 begins to grow.) A filter between plant and
+controller is left out.
 
 Beyond the linear limit, and for starts that are not close to the solution, the step's saturation
 counts: :mod:`fpt_ros.analysis.gain_map`.
@@ -30,7 +31,6 @@ from fpt_ros.errors import BadInput
 from fpt_ros.laws import NOT_CONTROLLED
 from fpt_ros.loop import nominal
 from fpt_ros.loop.trajectory_generator import slot
-from fpt_ros.messages.frames import SECOND
 from fpt_ros.tuning import GAIN
 
 if TYPE_CHECKING:
@@ -74,7 +74,7 @@ class Point:
 
 @dataclass(frozen=True)
 class Band:
-    """What the iteration does for |A| between two values; ``end``: inf where it goes on for ever."""
+    """What the iteration does for |A| between two values; ``end``: inf where that is the last."""
 
     start: float
     end: float
@@ -109,8 +109,9 @@ class Gain:
         reach: |A| h at which a response error is out of the transformation's domain at once; inf.
         monotone: up to here no response error changes its sign.
         linear_limit: up to here small response errors decay.
-        bare_limit: the same without the feedback, the desired response held.
-        hard_onset: from here on a finite two-cycle lies beside the solution; ``None``: from nowhere.
+        loosest_limit: the linear limit at the point of the motion where it is largest.
+        bare_limit: the linear limit without the feedback, the desired response held.
+        hard_onset: from here on a finite two-cycle lies beside the solution; ``None``: nowhere.
         doubling: here the two-cycle that the solution has given way to doubles its period.
         chaos: first chaotic gain on a grid, where it was looked for.
         domain_limit: beyond it the iteration leaves the transformation's domain from any start.
@@ -129,6 +130,7 @@ class Gain:
     reach: float
     monotone: float
     linear_limit: float
+    loosest_limit: float
     bare_limit: float
     hard_onset: float | None
     doubling: float | None
@@ -236,9 +238,10 @@ def bounds(experiment: "Experiment", points: Sequence[Point] | None = None) -> G
     side = 1.0 if least >= -tiny else -1.0
     one_sign = size > 0.0 and (least >= -tiny or greatest <= tiny)
     scalar = scalar_map(transformation, deformer.constants, side)
-    taken = values[np.abs(real) > tiny]
     # the circle |1 - a lambda| = 1 is left at a = 2 Re lambda / |lambda|^2
-    steepest = float((np.abs(taken) ** 2 / np.abs(taken.real)).max()) if taken.size else math.nan
+    steepness = np.where(np.abs(found.real) > tiny, np.abs(found) ** 2 / np.abs(found.real), 0.0)
+    of_points = steepness.max(axis=1)
+    steepest, flattest = float(of_points.max()), float(of_points[np.isfinite(values_at)].min())
     fed_back = feedback(loop)
     scale = 1.0 / (steepest * (1.0 + fed_back))
     slope = transformation.slope(deformer.constants)
@@ -259,6 +262,7 @@ def bounds(experiment: "Experiment", points: Sequence[Point] | None = None) -> G
         reach=min(-low, high),
         monotone=0.5 * linear,
         linear_limit=linear,
+        loosest_limit=linear * steepest / flattest if flattest > 0.0 else math.inf,
         bare_limit=linear * (1.0 + fed_back),
         hard_onset=hard_onset,
         doubling=_times(scalar.doubling(), scale) if one_sign else None,
@@ -322,7 +326,7 @@ def nominal_points(loop: "Loop") -> list[Point]:
 def along(engine: "Engine", loop: "Loop") -> list[Point]:
     """The motion of a run at ``POINTS`` times, with the model as it was tuned then."""
     topics = engine.topics()
-    state, command = topics["joint_states"], topics["command"]
+    state, command = topics["state_estimate"], topics["command"]
     tuned, names = topics.get("tuning"), loop.deformer.model.coefficient_names
     follows = tuned is not None and names and tuned.names[: len(names)] == names
     rest = loop.deformer.coefficients[len(names) :]
@@ -334,8 +338,8 @@ def along(engine: "Engine", loop: "Loop") -> list[Point]:
         points.append(
             Point(
                 float(state.time[k]),
-                state.vectors["position"][k].tolist(),
-                state.vectors["velocity"][k].tolist(),
+                state.vectors["positions"][k].tolist(),
+                state.vectors["velocities"][k].tolist(),
                 command.vectors["accelerations"][k].tolist(),
                 coefficients,
             )
@@ -364,9 +368,7 @@ def spectrum(loop: "Loop", points: Iterable[Point]) -> NDArray[np.complex128]:
 def jacobian(loop: "Loop", point: Point) -> NDArray[np.float64]:
     """J = df/dr over the coordinates that are controlled at a point, by central differences."""
     where = [
-        at
-        for at in loop.trajectory.locate(loop.plant.coordinates)
-        if not math.isnan(point.r[at])
+        at for at in loop.trajectory.locate(loop.plant.coordinates) if not math.isnan(point.r[at])
     ]
     J = np.full((len(where), len(where)), math.nan)
     try:
@@ -408,25 +410,26 @@ def warning(experiment: "Experiment") -> str:
     low, high = gain.range
     interval = f"({low:.4g}, {high:.4g})"
     hard = gain.hard_onset
-    onset = f"hard onset of chattering at {sign * hard:.4g}" if hard is not None else ""
+    onset = f"a hard onset of chattering at {sign * hard:.4g}" if hard is not None else ""
     if sign == 0:
         least, greatest = gain.eigenvalues
         return (
             "no fpt_deformer.A contracts along the nominal motion, where the response's "
             f"eigenvalues are between {least:.4g} and {greatest:.4g} ({more})"
         )
-    held = loop.tuner.guards and A * sign > 0.0  # the precursor guard lowers |A| by itself
-    if held:
-        return ""
+    if loop.tuner.guards and A * sign > 0.0:
+        return ""  # the precursor guard lowers |A| by itself
     if not gain.contracts(A):
+        part = "in a part of the nominal motion " if abs(A) < gain.loosest_limit and A * sign > 0.0 else ""
+        what = f"{part}it {_verb(gain.behaviour(A))}"
         return (
             f"fpt_deformer.A = {A:g} is outside the range {interval} in which the iteration "
-            f"contracts, it {_verb(gain.behaviour(A))} ({onset + '; ' if onset else ''}{more})"
+            f"contracts: {what} ({onset + '; ' if onset else ''}{more})"
         )
     if hard is not None and abs(A) >= hard:
         return (
-            f"fpt_deformer.A = {A:g} may chatter, it is beyond the {onset} (small errors decay "
-            f"in {interval}; {more})"
+            f"fpt_deformer.A = {A:g} may chatter: beyond {onset} a large response error ends "
+            f"in a two-cycle, while small ones decay in {interval} ({more})"
         )
     return ""
 

@@ -1,8 +1,5 @@
 """The picture of a gain analysis: behaviour over |A|, where the iteration ends, multipliers."""
 
-import math
-from collections.abc import Sequence
-
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
@@ -23,6 +20,7 @@ from fpt_ros.analysis.gain import (
     Course,
     Gain,
 )
+from fpt_ros.loop.run import Array
 
 COLOURS = {
     MONOTONE: "#cfe8d8",
@@ -136,7 +134,9 @@ def _strip(axes: Axes, gain: Gain, end: float) -> None:
         )
         last = edge
     for at, look in _marks(gain, end):
-        axes.plot([at], [0.0], marker="^", markersize=9, color=look["color"], clip_on=False, zorder=6)
+        axes.plot(
+            [at], [0.0], marker="^", markersize=9, color=look["color"], clip_on=False, zorder=6
+        )
 
 
 def _marks(gain: Gain, end: float) -> list[tuple[float, style.Style]]:
@@ -159,28 +159,34 @@ def _ends(axes: Axes, gain: Gain, end: float, unit: str) -> None:
     if hard is not None:
         large: style.Style = {"color": "#a33b00", "markersize": 1.1, "zorder": 3}
         starts.append((hard.high * (1.0 + 1e-6), large, "from a large error"))
-    size = 0.0
+    shown: list[float] = []
     for start, look, label in starts:
         x: list[float] = []
         y: list[float] = []
-        for A in np.linspace(end / COLUMNS, end, COLUMNS):
-            last = scalar.attractor(float(A) / gain.scale, start, SKIP, KEEP)
+        for A in np.linspace(0.03 * end, end, COLUMNS):
+            last = np.array(scalar.attractor(float(A) / gain.scale, start, SKIP, KEEP)) / A
+            if hard is not None and len(last):
+                # saturated two-cycles can be shifted as a whole: what they swing about says nothing
+                last = last - last.mean()
             x += [float(A)] * len(last)
-            y += [u / float(A) for u in last]
+            y += last.tolist()
         axes.plot(x, y, ".", rasterized=True, **look)
         axes.plot([], [], "o", color=look["color"], markersize=3.5, label=label)
-        size = max([size, *map(abs, y)])
+        shown += [h for h in y if abs(h) > 1e-9]
+    if len(starts) > 1:
+        axes.legend(loc="upper left", frameon=True, framealpha=0.85, edgecolor="none")
     for at, look in _marks(gain, end):
         axes.axvline(at, **look, zorder=2)
     for band in gain.bands[1:]:
         axes.axvline(band.start, color=style.INK, linewidth=0.8, zorder=2)
     axes.set_xlim(0.0, end)
-    room = 1.12 * size if size > 0.0 else 1.0
-    axes.set_ylim(-room, room)
+    low, high = np.percentile(shown, (0.2, 99.8)).tolist() if shown else (-1.0, 1.0)
+    room = 0.25 * (high - low)
+    axes.set_ylim(min(low, 0.0) - room, max(high, 0.0) + room)
     axes.set_xlabel("$|A|$, $A < 0$" if gain.sign < 0 else "$A$")
-    axes.set_ylabel(style.label("response error in the end", unit))
+    axes.set_ylabel(style.label("response error", unit))
+    axes.set_title("where the iteration ends", loc="left")
     axes.xaxis.set_major_locator(MaxNLocator(10))
-    axes.legend(loc="upper left")
 
 
 def _course(axes: Axes, gain: Gain, course: Course) -> None:
@@ -219,10 +225,7 @@ def _course(axes: Axes, gain: Gain, course: Course) -> None:
     axes.legend(handles=handles, loc="lower right", bbox_to_anchor=(1.0, 1.0), ncols=2)
 
 
-def _lines(axes: Axes, course: Course, rows: Sequence[Sequence[float]], look: style.Style) -> None:
-    matrix = np.asarray(rows, dtype=np.float64)
-    for column in matrix.T:
-        known = np.isfinite(column)
-        if not known.any() or math.isnan(float(column[known][0])):
-            continue
-        axes.plot(course.time, column, **look, zorder=3)
+def _lines(axes: Axes, course: Course, rows: Array, look: style.Style) -> None:
+    for column in rows.T:
+        if np.isfinite(column).any():
+            axes.plot(course.time, column, **look, zorder=3)

@@ -140,7 +140,7 @@ class ScalarMap:
         return cycle.p if cycle is not None else math.inf
 
     def doubling(self) -> float | None:
-        """The p at which the two-cycle's multiplier reaches -1, and it gives way to a four-cycle."""
+        """The p at which the two-cycle's multiplier is -1, and a four-cycle takes its place."""
         for one, next_one in zip(self.branch, self.branch[1:], strict=False):
             if one.multiplier > -1.0 >= next_one.multiplier:
                 inside, outside = one.high, next_one.high

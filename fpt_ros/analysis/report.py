@@ -5,12 +5,9 @@ import io
 import json
 from collections.abc import Sequence
 from dataclasses import dataclass
-from importlib.resources import files
 from pathlib import Path
 
-from jinja2 import Environment, StrictUndefined
-
-from fpt_ros.analysis import signals, style
+from fpt_ros.analysis import pages, signals, style
 from fpt_ros.analysis.figures import Chart, charts
 from fpt_ros.analysis.labels import run_labels
 from fpt_ros.analysis.metrics import baselines, comparison, summary
@@ -113,12 +110,9 @@ def _numbers(runs: Sequence[Run], found: dict[str, Chart]) -> str:
 
 
 def _page(runs: Sequence[Run], found: dict[str, Chart], pictures: dict[str, bytes]) -> str:
-    environment = Environment(
-        autoescape=True, undefined=StrictUndefined, trim_blocks=True, lstrip_blocks=True
-    )
-    source = files("fpt_ros.analysis").joinpath(TEMPLATE).read_text(encoding="utf-8")
     encoded = {name: base64.b64encode(data).decode() for name, data in pictures.items()}
-    return environment.from_string(source).render(
+    return pages.render(
+        TEMPLATE,
         title=_title(runs),
         abouts=[_about(run, label) for run, label in zip(runs, run_labels(runs), strict=True)],
         table=content(runs),

@@ -80,38 +80,34 @@ def _tried(experiment: "Experiment", found: "Gain") -> "tuple[list[Point] | None
     """A run with the recommended A, or half of it where it fails, and so on."""
     from fpt_ros.analysis.gain import along, bounds
     from fpt_ros.analysis.metrics import summary
-    from fpt_ros.errors import BadInput, RunFailed
+    from fpt_ros.errors import RunFailed
     from fpt_ros.loop.engine import Engine
     from fpt_ros.loop.run import Run, describe
 
-    A = found.recommended
-    for _ in range(HALVINGS if found.sign else 0):
+    reason = ""
+    for k in range(HALVINGS if found.sign else 0):
+        A = found.recommended * 0.5**k
         one = experiment if found.calculated else experiment.with_values("fpt_deformer", A=A)
         loop = one.loop()
         engine = Engine(loop)
         try:
             engine.run()
         except RunFailed as error:
-            if found.calculated:
-                return None, {"A": None, "complete": False, "reason": str(error)}
-            A *= 0.5
+            reason = reason or str(error)
             continue
         points = along(engine, loop)
-        try:
-            there = bounds(one, points)
-        except BadInput:
-            return None, {}
+        there = bounds(one, points)
         numbers = summary(Run(describe(one, "in_process", ""), one.nodes, engine.topics()))
         return points, {
             "A": None if found.calculated else A,
             "complete": True,
-            "reason": "",
+            "reason": reason,
             "tracking": numbers["tracking"],
             "chatter": numbers["chatter"],
             "eigenvalues": list(there.eigenvalues),
             "linear_limit": there.linear_limit,
         }
-    return None, {}
+    return None, {"A": None, "complete": False, "reason": reason} if found.sign else {}
 
 
 def _result(experiment: "Experiment", found: "Gain", tried: dict[str, Any]) -> dict[str, Any]:
@@ -205,19 +201,24 @@ def _print(experiment: "Experiment", found: "Gain", result: dict[str, Any]) -> N
         note = f"<- A = {found.given:g}" if inside and not found.calculated else ""
         table.add_row(*(f"{x + 0.0:.7g}" for x in ends), row["behaviour"], note)
     out.print(table)
-    for line in _remarks(found, result):
+    for line in _remarks(experiment, found, result):
         print(line)
 
 
-def _remarks(found: "Gain", result: dict[str, Any]) -> list[str]:
+def _remarks(experiment: "Experiment", found: "Gain", result: dict[str, Any]) -> list[str]:
     """What the table does not say."""
     least, greatest = found.eigenvalues
     tried = result["run"] or {}
-    lines = [
+    first = (
         f"eigenvalues of the response {least:.5g} .. {greatest:.5g}, slope of the transformation "
-        f"{found.slope:.5g}, feedback of the desired response {found.feedback:.3g} (without it "
-        f"the linear limit is {found.sign * found.bare_limit:.7g})"
-    ]
+        f"{found.slope:.5g}"
+    )
+    if found.feedback:
+        first += (
+            f", feedback of the desired response {found.feedback:.3g} (without it the bound is "
+            f"{found.sign * found.bare_limit:.7g})"
+        )
+    lines = [first]
     if found.hard_onset is not None:
         lines.append(
             f"hard onset: from {found.sign * found.hard_onset:.5g} on a two-cycle with steps of r "
@@ -230,6 +231,8 @@ def _remarks(found: "Gain", result: dict[str, Any]) -> list[str]:
             if found.given
             else f"|A| h > {found.reach:.5g} is out of the domain of F at once"
         )
+    if experiment.nodes["denoiser"]["method"] != "none":
+        lines.append("the filter (denoiser.method) is left out of this analysis")
     if found.calculated:
         lines.append("A is calculated by the tuner: fpt_deformer.A of the file is not used")
     advice = f"recommended: A = {result['recommended']:g}"
@@ -241,6 +244,9 @@ def _remarks(found: "Gain", result: dict[str, Any]) -> list[str]:
         )
         advice += f" (a run with it: settled rms error {errors}; chatter {tried['chatter']:.3g})"
     lines.append(advice)
+    if tried.get("reason"):
+        whole = f"a run with A = {found.recommended:g}" if not found.calculated else "the run"
+        lines.append(f"but {whole} did not end well: {tried['reason']}")
     if tried.get("complete") and abs(tried["linear_limit"] / found.linear_limit - 1.0) > 5e-3:
         least, greatest = tried["eigenvalues"]
         lines.append(

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from fpt_ros.cli.gain import warn_about_gain
 from fpt_ros.cli.options import (
     Duration,
     Json,
@@ -49,6 +50,7 @@ def run(
     _check_namespace(namespace)
     if record is not None:
         check_new_directory(record)
+    warn_about_gain(experiment)
     with tempfile.TemporaryDirectory(prefix="fpt_ros-") as folder:
         bag = record or Path(folder) / "recording"
         result, failure = run_recorded(experiment, bag, composed, realtime, namespace)

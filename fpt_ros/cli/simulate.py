@@ -5,6 +5,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from time import perf_counter
 
+from fpt_ros.cli.gain import warn_about_gain
 from fpt_ros.cli.options import (
     Duration,
     Json,
@@ -34,6 +35,7 @@ def simulate(
     experiment = experiment_of(name, variant, set_, duration, seed)
     if record is not None:
         check_new_directory(record)
+    warn_about_gain(experiment)
     from fpt_ros.analysis.metrics import summary
     from fpt_ros.bags.recording import EngineRecording
     from fpt_ros.cli.output import print_result, progress_bar

@@ -71,7 +71,7 @@ def _blocks(t: Signal) -> Signal:
 
 
 def _chirp(t: Signal) -> Signal:
-    return np.sin(2 * np.pi * (2 * t + 18 * t**3))
+    return np.asarray(np.sin(2 * np.pi * (2 * t + 18 * t**3)))
 
 
 def _spectro(t: Signal) -> Signal:

@@ -12,7 +12,7 @@ from fpt_ros.loop.experiment import Loop
 from fpt_ros.loop.fpt_deformer import no_deformation
 from fpt_ros.loop.run import Array, Series
 from fpt_ros.loop.tuned import NOTHING, tuned_by
-from fpt_ros.messages.frames import SECOND, Command, Frame
+from fpt_ros.messages.frames import SECOND, Command, Frame, StateEstimate
 from fpt_ros.messages.topics import (
     COMMAND,
     DESIRED,
@@ -34,7 +34,7 @@ class Engine:
     """One run of an experiment's loop.
 
     Attributes:
-        done: number of cycles that are complete.
+        done: number of cycles whose messages are all there.
     """
 
     def __init__(self, loop: Loop, compile_laws: bool = True) -> None:
@@ -185,8 +185,13 @@ class Engine:
         for state, kept in zip((*self._states, self._carry), before, strict=True):
             state[:] = kept
         self.done = self._call(first, reached)
-        explain(self._loop, self.done, self._last_command())
-        raise RunFailed(f"cycle {self.done} failed compiled, but not as Python: this is a bug")
+        estimate, command = shown(self._loop, reached, self._last_command())
+        self.done = reached + 1  # all its messages are there: it is the plant that fails
+        try:
+            self._loop.plant.advance(command, command.stamp)
+        except Diverged as error:
+            raise error.because(self._loop.deformer.trouble(estimate.positions)) from None
+        raise RunFailed(f"cycle {reached} failed compiled, but not as Python: this is a bug")
 
     def _call(self, first: int, end: int) -> int:
         rows = [matrix for vectors in self._rows.values() for matrix in vectors]
@@ -242,8 +247,8 @@ class Engine:
                 observe(topic, topic.frame((first + i) * time, names, *vectors))
 
 
-def explain(loop: Loop, cycle: int, command: Command | None) -> None:
-    """Run one cycle stage by stage, for the message of the error that it ends with."""
+def shown(loop: Loop, cycle: int, command: Command | None) -> tuple[StateEstimate, Command]:
+    """Run one cycle stage by stage up to the command, which is where it may end with an error."""
     plant = loop.plant
     stamp = cycle * plant.cycle_time
     for stage in (loop.denoiser, loop.trajectory, loop.tuner, loop.deformer):
@@ -257,11 +262,7 @@ def explain(loop: Loop, cycle: int, command: Command | None) -> None:
     if loop.tuner.active:
         wanted = (desired,) if loop.tuner.law.desired else ()
         tuning = loop.tuner.step(estimate, *wanted, command)
-    command = loop.deformer.step(estimate, desired, tuning)
-    try:
-        plant.advance(command, stamp)
-    except Diverged as error:
-        raise error.because(loop.deformer.trouble(estimate.positions)) from None
+    return estimate, loop.deformer.step(estimate, desired, tuning)
 
 
 def _vector(values: Any) -> Array:

@@ -63,17 +63,17 @@ class _Child:
 
 def run(
     experiment: Experiment,
-    record: Path,
+    record: Path | None,
     composed: bool = False,
     realtime: bool = False,
     namespace: str = "",
     progress: Callable[[int], None] | None = None,
 ) -> None:
-    """Run an experiment as processes over DDS, recorded.
+    """Run an experiment as processes over DDS.
 
     Args:
         experiment: what to run.
-        record: directory of the recording; must not exist.
+        record: directory of the recording, must not exist; None: no recorder is started.
         composed: the five stages in one process.
         realtime: on the wall clock instead of in lockstep.
         namespace: ROS namespace of all nodes.
@@ -88,9 +88,11 @@ def run(
         declared = experiment.nodes[node]
         if "realtime" in declared:
             experiment = experiment.with_values(node, realtime=realtime)
-    experiment = experiment.with_values(PlantSimulator.name, await_recorder=True)
-    cycles = experiment.loop().plant.cycles
-    experiment = experiment.with_values(RECORDER, directory=str(record.absolute()), cycles=cycles)
+    recorded = record is not None
+    experiment = experiment.with_values(PlantSimulator.name, await_recorder=recorded)
+    if record is not None:
+        cycles, directory = experiment.loop().plant.cycles, str(record.absolute())
+        experiment = experiment.with_values(RECORDER, directory=directory, cycles=cycles)
     with tempfile.TemporaryDirectory(prefix="fpt_ros-") as folder:
         parameters = Path(folder) / "parameters.yaml"
         experiment.write(parameters)
@@ -98,7 +100,7 @@ def run(
         if namespace:
             arguments += ["-r", f"__ns:=/{namespace.strip('/')}"]
         with shared_memory.left_as_found():
-            asyncio.run(_Graph(arguments, composed, progress).run())
+            asyncio.run(_Graph(arguments, composed, recorded, progress).run())
 
 
 def environment() -> Mapping[str, str]:
@@ -123,9 +125,14 @@ class _Graph:
     """One run of the processes."""
 
     def __init__(
-        self, arguments: list[str], composed: bool, progress: Callable[[int], None] | None
+        self,
+        arguments: list[str],
+        composed: bool,
+        recorded: bool,
+        progress: Callable[[int], None] | None,
     ) -> None:
         self._arguments = arguments
+        self._recorded = recorded
         self._loop_names = ["composed"] if composed else list(reversed(STAGES))
         self._plant = "composed" if composed else PlantSimulator.name
         self._progress = progress
@@ -165,13 +172,14 @@ class _Graph:
 
     async def _watch(self, progress_out: int, reason_in: int) -> FptError | None:
         """Until the plant has finished (None), or something has gone wrong."""
-        self._recorder = await self._start(RECORDER, FPT_REASON_FD=reason_in)
+        if self._recorded:
+            self._recorder = await self._start(RECORDER, FPT_REASON_FD=reason_in)
         for name in self._loop_names:
             if name == self._plant:
                 self._loop.append(await self._start(name, FPT_PROGRESS_FD=progress_out))
             else:
                 self._loop.append(await self._start(name))
-        children = [self._recorder, *self._loop]
+        children = [*([self._recorder] if self._recorder is not None else []), *self._loop]
         ends = {asyncio.create_task(child.ended()) for child in children}
         interrupted = asyncio.create_task(self._stop.wait())
         clock = asyncio.get_running_loop()

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from engine_runs import collected_stage_by_stage, stage_by_stage
+from engine_runs import stage_by_stage
 
 from fpt_ros.errors import Diverged
 from fpt_ros.loop import engine as engine_module
@@ -244,9 +244,17 @@ def test_a_cycle_that_fails_is_told_as_the_stages_tell_it(name, settings, cycle)
     engine = Engine(loaded.loop())
     with pytest.raises(Diverged) as ours:
         engine.run()
+    collector = Collector()
     with pytest.raises(Diverged) as theirs:
-        collected_stage_by_stage(loaded.loop())
+        stage_by_stage(loaded.loop(), collector)
     assert str(ours.value).split(" (")[0] == str(theirs.value).split(" (")[0]
     assert ours.value.cycle == theirs.value.cycle
     if cycle is not None:
         assert ours.value.cycle == cycle
+    # a command that was given is in the arrays, also where the plant did not survive it
+    expected = collector.topics().get("command")
+    found = engine.topics()["command"]
+    if expected is None:
+        assert len(found.stamps) == 0
+    else:
+        assert_identical({"command": found}, {"command": expected})

@@ -1,4 +1,4 @@
-"""Adaptive multi-round smoothing (thesis section 6.2): degree and window by the distance of extrema.
+"""Adaptive multi-round smoothing (thesis section 6.2): window by the distance of extrema.
 
 1. A first Savitzky-Golay pass shows the extrema; d_i are the lengths of the sections between them.
 2. Runs of sections whose lengths stay within a factor 2 of their running mean are the parts R, with
@@ -33,6 +33,7 @@ the method is not independent of the kind of noise: it has no rejection of impul
 
 import math
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
@@ -122,7 +123,7 @@ def rule(g: float, mean: float, samples: int) -> tuple[int, float]:
 def admissible(window: float, degree: int, n: int) -> int:
     """The odd window next to ``window``, at least degree + 2 and at most n samples."""
     least = degree + 2 + (degree + 1) % 2
-    nearest = int(math.floor(window + 0.5))
+    nearest = math.floor(window + 0.5)
     return min(max(nearest + (nearest + 1) % 2, least), n - (n + 1) % 2)
 
 
@@ -167,7 +168,7 @@ def smooth_parts(y: Signal, parts: list[Part]) -> Signal:
     smoothed = {key: smooth(y, *key) for key in {(part.window, part.degree) for part in parts}}
     out = smoothed[parts[0].window, parts[0].degree].copy()
     samples = np.arange(n)
-    for before, part in zip(parts[:-1], parts[1:], strict=True):
+    for before, part in pairwise(parts):
         fade = min(min(p.window, p.end - p.begin) for p in (before, part)) / 4.0
         share = np.clip(0.5 + (samples + 0.5 - part.begin) / max(fade, 1e-9), 0.0, 1.0)
         out += share * (smoothed[part.window, part.degree] - out)

@@ -21,7 +21,7 @@ def sparse(x: Signal) -> bool:
     """Whether ``x`` (units of sigma) holds too little energy above the noise for (5.2)."""
     k = len(x)
     eta = (float(np.sum(x**2)) - k) / k
-    return eta < math.log2(k) ** 1.5 / math.sqrt(k)
+    return eta < math.pow(math.log2(k), 1.5) / math.sqrt(k)
 
 
 def rule(x: Signal, n: int) -> float:

@@ -7,7 +7,8 @@ Each section between two knots gets a line y = m_i x + b_i; all are found togeth
 
 Joined lines are a piecewise linear function, so the unknowns can be its values at the knots, in the
 basis of hat functions: the constraints are gone and the normal equations are tridiagonal. The
-solution is that of the Lagrange multipliers. A knot's own sample belongs to the section on its left.
+solution is that of the Lagrange multipliers. A knot's own sample belongs to the section on its
+left.
 
 Misprints corrected: the second sum of (6.12) runs over [x_2, x_3], and (6.13) is an equation: the
 print has a minus in place of its sign.

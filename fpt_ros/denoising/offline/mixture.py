@@ -115,7 +115,12 @@ def next_noise(y: Signal, fit: Fit, present: Mask, sigma0: float) -> Noise:
 
 
 def fit(
-    y: Signal, present: Mask, core: Core, begin: Start, z: Signal | None = None, rounds: int = ROUNDS
+    y: Signal,
+    present: Mask,
+    core: Core,
+    begin: Start,
+    z: Signal | None = None,
+    rounds: int = ROUNDS,
 ) -> Fit:
     """EM around ``core``.
 

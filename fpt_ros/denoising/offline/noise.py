@@ -5,6 +5,8 @@ signal vanishes: sigma = median(|d|) / 0.6745. The thesis prints the median with
 value (below (5.1)), which is about 0 for any symmetric band.
 """
 
+import math
+
 import numpy as np
 import pywt
 from numpy.typing import NDArray
@@ -39,7 +41,7 @@ def third_difference_sigma(y: Signal, present: Mask | None = None) -> float:
 
 def _band_sigma(y: Signal, present: Mask | None, kernel: Signal) -> float:
     if len(y) < len(kernel):
-        return mad(np.diff(y)) / np.sqrt(2.0)
+        return mad(np.diff(y)) / math.sqrt(2.0)
     band = np.convolve(y, kernel, mode="valid")
     if present is not None and not present.all():
         whole = np.convolve(present, np.ones(len(kernel)), mode="valid") > len(kernel) - 0.5

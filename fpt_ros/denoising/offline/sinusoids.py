@@ -25,7 +25,7 @@ DF = 5.0
 
 
 @njit(cache=True)
-def _fit(z: Signal, omega: Signal, steps: int) -> Signal:
+def _fit(z: Signal, omega: Signal, steps: int, constant: bool) -> Signal:
     """Gauss-Newton on ``omega`` [rad/sample], changed in place; returns the fitted sum.
 
     Columns: 1, and for each tone cos, sin and the derivative by frequency. Time runs from the
@@ -40,7 +40,7 @@ def _fit(z: Signal, omega: Signal, steps: int) -> Signal:
         width = 3 if wide else 2
         size = 1 + width * k
         columns = np.empty((size, n))
-        columns[0] = 1.0
+        columns[0] = 1.0 if constant else 0.0
         for j in range(k):
             c, s = math.cos(omega[j]), math.sin(omega[j])
             x, y = math.cos(-omega[j] * middle), math.sin(-omega[j] * middle)
@@ -89,15 +89,20 @@ def fit(
     n = len(z)
     z = np.ascontiguousarray(z)
     tones = omega.copy()
-    f = _fit(z, tones, 2) if len(tones) else np.full(n, z.mean())
+    f = _fit(z, tones, 2, True) if len(tones) else np.full(n, z.mean())
     rss = float(np.sum((z - f) ** 2))
     while len(tones) < min(most, n // 8):
         more = np.append(tones, _peak(z - f))
-        g = _fit(z, more, STEPS)
+        g = _fit(z, more, STEPS, True)
         lower = float(np.sum((z - g) ** 2))
         if not 0.0 < lower or n * math.log(rss / lower) < BIC * math.log(n):
             break
         tones, f, rss = more, g, lower
+    if len(tones):
+        without = tones.copy()
+        g = _fit(z, without, 2, False)
+        if n * math.log(float(np.sum((z - g) ** 2)) / max(rss, 1e-300)) < math.log(n):
+            return g, without
     return f, tones
 
 

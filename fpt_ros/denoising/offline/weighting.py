@@ -7,8 +7,8 @@ With distances d_i, the radius d and u_i = d_i / d:
     Dombi    w_i = 1 / (1 + (u_i / (1 - u_i))^lambda sum_{j != i} ((1 - u_j) / u_j)^lambda)  (6.16)
 
 (6.15) is printed for lambda = 2, where it is (6.14). Misprints corrected: the denominator of (6.14)
-is d d_i, not a symbol dd_i; the first exponent of (6.16) is lambda, not 2, and its sum leaves out i.
-As printed the weights of (6.16) do not sum to 1; corrected they are those of (6.15) for every
+is d d_i, not a symbol dd_i; the first exponent of (6.16) is lambda, not 2, and its sum leaves out
+i. As printed the weights of (6.16) do not sum to 1; corrected they are those of (6.15) for every
 lambda: s_i / (s_i + sum of the others), with s = ((1 - u) / u)^lambda.
 """
 

@@ -1,0 +1,1 @@
+"""Many runs of an experiment: sweeps over parameters, and the search for good ones."""
