@@ -24,7 +24,11 @@ setup(
     maintainer_email="fpt_ros@example.com",
     python_requires=">=3.11",
     packages=find_packages(include=["fpt_ros", "fpt_ros.*"]),
-    package_data={"fpt_ros.analysis": ["*.html.j2"], "fpt_ros.reproduction": ["*.html.j2"], "fpt_ros": ["py.typed"]},
+    package_data={
+        "fpt_ros": ["py.typed"],
+        "fpt_ros.analysis": ["*.html.j2", "*.css"],
+        "fpt_ros.reproduction": ["*.html.j2"],
+    },
     data_files=[
         ("share/ament_index/resource_index/packages", ["resource/fpt_ros"]),
         ("share/fpt_ros", ["package.xml"]),
@@ -37,6 +41,7 @@ setup(
         "scipy",
         "numba",
         "PyWavelets",
+        "pandas",
         "ruamel.yaml",
         "typer",
         "rich",

@@ -1,9 +1,9 @@
 """The graph over DDS against an echo ring on rclpy's default executor.
 
-The ring: a JointState of six doubles goes round five nodes, each of which builds the message that it
-passes on from the one that came; reliable and latched as the loop's topics are. Its rounds a second
-are what five hops cost an ordinary rclpy program. The graph goes five hops a cycle too, with the
-laws of the experiment inside, and more messages (fan-out).
+The ring: a JointState of six doubles goes round five nodes, each of which builds the message that
+it passes on from the one that came; reliable and latched as the loop's topics are. Its rounds a
+second are what five hops cost an ordinary rclpy program. The graph's cycle has four hops one after
+the other (five with a tuner that needs the desired response), with the laws inside and fan-out.
 """
 
 import os
@@ -22,7 +22,7 @@ COUNTED_FROM = 0.2
 """Part of a run that passes before its pace is taken."""
 
 
-def ring_node(index: int, pace_to: list[float] | None, rounds: dict[str, float]) -> object:
+def ring_node(index: int, rounds: dict[str, float]) -> object:
     """Node ``index`` of the ring; node 0 counts rounds and keeps the message going."""
     from rclpy.node import Node
     from rclpy.qos import DurabilityPolicy, HistoryPolicy, QoSProfile, ReliabilityPolicy
@@ -64,7 +64,7 @@ def ring(indices: list[int], seconds: float) -> None:
     rclpy.init()
     rounds: dict[str, float] = {}
     executor = SingleThreadedExecutor()
-    nodes = [ring_node(i, None, rounds) for i in reversed(indices)]
+    nodes = [ring_node(i, rounds) for i in reversed(indices)]
     for node in nodes:
         executor.add_node(node)  # type: ignore[arg-type]
     while "from" not in rounds or time.monotonic() - rounds["from"] < seconds:
@@ -120,9 +120,7 @@ def main() -> None:
     options = arguments(__doc__ or "", seconds=1.0)
     scale = options.seconds
 
-    def graph_of(
-        name: str, seconds: float, composed: bool, recorded: bool
-    ) -> Callable[[], float]:
+    def graph_of(name: str, seconds: float, composed: bool, recorded: bool) -> Callable[[], float]:
         return lambda: measure_graph(name, seconds * scale, composed, recorded)
 
     separate = {
@@ -142,7 +140,7 @@ def main() -> None:
         base = next(iter(group))
         found = median(alternate(group, options.runs, options.json))
         rows += [
-            {"what": name, "rounds/s": rate, f"ratio to its ring": rate / found[base]}
+            {"what": name, "rounds/s": rate, "ratio to its ring": rate / found[base]}
             for name, rate in found.items()
         ]
     show("The graph in lockstep against an echo ring", rows, options.json)

@@ -20,25 +20,18 @@ counts: :mod:`fpt_ros.analysis.gain_map`.
 import math
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
-from functools import partial
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
 
 from fpt_ros.analysis.gain_map import ScalarMap, scalar_map
+from fpt_ros.analysis.gain_motion import Point, feedback, nominal_points, spectrum
 from fpt_ros.errors import BadInput
-from fpt_ros.laws import NOT_CONTROLLED
-from fpt_ros.loop import nominal
-from fpt_ros.loop.trajectory_generator import slot
+from fpt_ros.loop.run import Array
 from fpt_ros.tuning import GAIN
 
 if TYPE_CHECKING:
-    from fpt_ros.loop.engine import Engine
-    from fpt_ros.loop.experiment import Experiment, Loop
-
-POINTS = 200
-"""Points along the motion at which the response is linearised."""
+    from fpt_ros.loop.experiment import Experiment
 
 MARGIN = 0.8
 """The recommended A as a part of the gain up to which all convergence is monotone."""
@@ -55,43 +48,12 @@ OR_TWO_CYCLE = f" or {TWO_CYCLE}"
 
 
 @dataclass(frozen=True)
-class Point:
-    """Where the response is linearised.
-
-    Attributes:
-        time: [s].
-        q, v: of all n coordinates.
-        r: response asked for; NaN where a coordinate is not controlled.
-        coefficients: of the approximate model.
-    """
-
-    time: float
-    q: list[float]
-    v: list[float]
-    r: list[float]
-    coefficients: Sequence[float]
-
-
-@dataclass(frozen=True)
 class Band:
     """What the iteration does for |A| between two values; ``end``: inf where that is the last."""
 
     start: float
     end: float
     name: str
-
-
-@dataclass(frozen=True)
-class Course:
-    """Eigenvalues along a motion.
-
-    Attributes:
-        time: (N,) [s].
-        eigenvalues: (N, c) of W J, real parts, sorted; NaN where there are fewer.
-    """
-
-    time: NDArray[np.float64]
-    eigenvalues: NDArray[np.float64]
 
 
 @dataclass(frozen=True)
@@ -181,7 +143,7 @@ class Gain:
             return DOUBLING_TO_CHAOS
         return CHAOS if start >= self.chaos else DOUBLING
 
-    def multipliers(self, A: float, eigenvalues: Iterable[float]) -> NDArray[np.float64]:
+    def multipliers(self, A: float, eigenvalues: Iterable[float]) -> Array:
         """What a small response error is multiplied by, for these eigenvalues."""
         rate = A * self.slope * (1.0 + self.feedback)
         return 1.0 + rate * np.asarray(eigenvalues, dtype=np.float64)
@@ -210,8 +172,8 @@ def bounds(experiment: "Experiment", points: Sequence[Point] | None = None) -> G
 
     Args:
         experiment: with a transformation.
-        points: of a motion (:func:`along`); default: the nominal one, the coordinates that are not
-            controlled as they are at the start.
+        points: of a motion (:func:`fpt_ros.analysis.gain_motion.along`); default: the nominal
+            one, the coordinates that are not controlled as they are at the start.
 
     Raises:
         BadInput: it has no transformation, or the model is not defined along the motion.
@@ -225,25 +187,26 @@ def bounds(experiment: "Experiment", points: Sequence[Point] | None = None) -> G
             "(fpt_deformer.transformation: none): there is no gain to choose"
         )
     found = spectrum(loop, nominal_points(loop) if points is None else points)
-    values = found[np.isfinite(found)]
-    if not values.size:
+    found = found[np.isfinite(found).any(axis=1)]
+    if not len(found):
         raise BadInput(
             f"{experiment.name} {experiment.variant}: the approximate model or the plant is not "
             "defined anywhere along the nominal motion"
         )
-    real = values.real
-    least, greatest = float(real.min()), float(real.max())
+    real = found.real
+    least, greatest = float(np.nanmin(real)), float(np.nanmax(real))
     size = max(abs(least), abs(greatest))
     tiny = 1e-9 * size
     side = 1.0 if least >= -tiny else -1.0
     one_sign = size > 0.0 and (least >= -tiny or greatest <= tiny)
     scalar = scalar_map(transformation, deformer.constants, side)
     # the circle |1 - a lambda| = 1 is left at a = 2 Re lambda / |lambda|^2
-    steepness = np.where(np.abs(found.real) > tiny, np.abs(found) ** 2 / np.abs(found.real), 0.0)
+    steepness = np.zeros(real.shape)
+    np.divide(np.abs(found) ** 2, np.abs(real), out=steepness, where=np.abs(real) > tiny)
     of_points = steepness.max(axis=1)
-    steepest, flattest = float(of_points.max()), float(of_points[np.isfinite(values_at)].min())
+    steepest, flattest = float(of_points.max()), float(of_points.min())
     fed_back = feedback(loop)
-    scale = 1.0 / (steepest * (1.0 + fed_back))
+    scale = 1.0 / (steepest * (1.0 + fed_back)) if steepest > 0.0 else 1.0
     slope = transformation.slope(deformer.constants)
     sign = int(-math.copysign(1.0, slope * side)) if one_sign else 0
     hard = scalar.hard_onset()
@@ -274,13 +237,6 @@ def bounds(experiment: "Experiment", points: Sequence[Point] | None = None) -> G
     )
 
 
-def course(experiment: "Experiment", points: Sequence[Point] | None = None) -> Course:
-    """The eigenvalues along a motion, the nominal one by default."""
-    loop = experiment.loop()
-    points = nominal_points(loop) if points is None else points
-    return Course(np.array([point.time for point in points]), spectrum(loop, points).real)
-
-
 def _times(number: float | None, factor: float) -> float | None:
     return number * factor if number is not None else None
 
@@ -291,107 +247,6 @@ def _rounded_down(x: float) -> float:
         return 0.0
     exponent = 1 - math.floor(math.log10(x))
     return round(math.floor(x * 10.0**exponent + 1e-9) / 10.0**exponent, max(exponent, 0))
-
-
-def feedback(loop: "Loop") -> float:
-    """How much of the response error the desired response takes back within the learning delay."""
-    relaxation, lam = loop.trajectory.relaxation, loop.trajectory.lam
-    relax = partial(relaxation.prescribe, lam, 0.0)
-    changed = {0: (0.0, 0.0), 1: (1.0, 0.0), 2: (0.0, 1.0)}[relaxation.order]
-    rate = relax(*changed, 0.0) - relax(0.0, 0.0, 0.0)
-    return rate * loop.plant.dt * max(loop.deformer.delay, loop.deformer.hold)
-
-
-def nominal_points(loop: "Loop") -> list[Point]:
-    """The nominal motion at ``POINTS`` times."""
-    plant, trajectory, dt = loop.plant, loop.trajectory, loop.plant.dt
-    stride = max(1, plant.cycles // POINTS)
-    every = 1 if trajectory.trajectory.state else stride  # what is integrated needs every cycle
-    cycles = range(0, plant.cycles, every)
-    motions = nominal.sample(trajectory, [cycle * dt for cycle in cycles], every * dt)
-    n, where = len(plant.coordinates), trajectory.locate(plant.coordinates)
-    points = []
-    for cycle, (q_n, v_n, r_n) in list(zip(cycles, motions, strict=True))[:: stride // every]:
-        q, v = list(plant.state[:n]), list(plant.state[n : 2 * n])
-        r = [NOT_CONTROLLED] * n
-        active = slot(trajectory.slots, float(cycle * plant.cycle_time))
-        for i, at in enumerate(where):
-            q[at], v[at] = q_n[i], v_n[i]
-            if active in (-1, i):
-                r[at] = r_n[i]
-        points.append(Point(cycle * dt, q, v, r, loop.deformer.coefficients))
-    return points
-
-
-def along(engine: "Engine", loop: "Loop") -> list[Point]:
-    """The motion of a run at ``POINTS`` times, with the model as it was tuned then."""
-    topics = engine.topics()
-    state, command = topics["state_estimate"], topics["command"]
-    tuned, names = topics.get("tuning"), loop.deformer.model.coefficient_names
-    follows = tuned is not None and names and tuned.names[: len(names)] == names
-    rest = loop.deformer.coefficients[len(names) :]
-    points = []
-    for k in range(0, engine.done, max(1, engine.done // POINTS)):
-        coefficients: Sequence[float] = loop.deformer.coefficients
-        if tuned is not None and follows:
-            coefficients = [*tuned.vectors["values"][k, : len(names)].tolist(), *rest]
-        points.append(
-            Point(
-                float(state.time[k]),
-                state.vectors["positions"][k].tolist(),
-                state.vectors["velocities"][k].tolist(),
-                command.vectors["accelerations"][k].tolist(),
-                coefficients,
-            )
-        )
-    return points
-
-
-def spectrum(loop: "Loop", points: Iterable[Point]) -> NDArray[np.complex128]:
-    """Eigenvalues of W J, a row a point, sorted; NaN where it has fewer, or is not defined."""
-    controlled = loop.trajectory.locate(loop.plant.coordinates)
-    weights = dict(
-        zip(controlled, loop.deformer.weights_of(loop.trajectory.controlled), strict=True)
-    )
-    rows = []
-    for point in points:
-        row = np.full(len(controlled), complex(math.nan, math.nan))
-        J = jacobian(loop, point)
-        if np.isfinite(J).all():
-            where = [at for at in controlled if not math.isnan(point.r[at])]
-            found = np.linalg.eigvals(np.array([[weights[at]] for at in where]) * J)
-            row[: len(found)] = np.sort_complex(found)
-        rows.append(row)
-    return np.array(rows).reshape(len(rows), len(controlled))
-
-
-def jacobian(loop: "Loop", point: Point) -> NDArray[np.float64]:
-    """J = df/dr over the coordinates that are controlled at a point, by central differences."""
-    where = [
-        at for at in loop.trajectory.locate(loop.plant.coordinates) if not math.isnan(point.r[at])
-    ]
-    J = np.full((len(where), len(where)), math.nan)
-    try:
-        for j, at in enumerate(where):
-            step = 1e-3 * (1.0 + abs(point.r[at]))
-            up, down = list(point.r), list(point.r)
-            up[at] += step
-            down[at] -= step
-            high, low = response(loop, point, up), response(loop, point, down)
-            for i, row in enumerate(where):
-                J[i, j] = (high[row] - low[row]) / (2.0 * step)
-    except (ArithmeticError, ValueError):
-        pass
-    return J
-
-
-def response(loop: "Loop", point: Point, r: list[float]) -> list[float]:
-    """f(r): the exact plant's response to the approximate model's effort for r."""
-    n = len(point.q)
-    effort, out = [0.0] * n, [0.0] * n
-    loop.deformer.model.effort(point.coefficients, point.q, point.v, r, [0.0] * n, effort)
-    loop.plant.plant.response(loop.plant.coefficients, point.q, point.v, effort, out)
-    return out
 
 
 def warning(experiment: "Experiment") -> str:
@@ -410,7 +265,7 @@ def warning(experiment: "Experiment") -> str:
     low, high = gain.range
     interval = f"({low:.4g}, {high:.4g})"
     hard = gain.hard_onset
-    onset = f"a hard onset of chattering at {sign * hard:.4g}" if hard is not None else ""
+    onset = f"hard onset of chattering at {sign * hard:.4g}" if hard is not None else ""
     if sign == 0:
         least, greatest = gain.eigenvalues
         return (
@@ -420,15 +275,21 @@ def warning(experiment: "Experiment") -> str:
     if loop.tuner.guards and A * sign > 0.0:
         return ""  # the precursor guard lowers |A| by itself
     if not gain.contracts(A):
-        part = "in a part of the nominal motion " if abs(A) < gain.loosest_limit and A * sign > 0.0 else ""
+        part = (
+            "in a part of the nominal motion "
+            if abs(A) < gain.loosest_limit and A * sign > 0.0
+            else ""
+        )
         what = f"{part}it {_verb(gain.behaviour(A))}"
+        if onset and A * sign > 0.0:
+            more = f"a {onset}; {more}"
         return (
             f"fpt_deformer.A = {A:g} is outside the range {interval} in which the iteration "
-            f"contracts: {what} ({onset + '; ' if onset else ''}{more})"
+            f"contracts: {what} ({more})"
         )
     if hard is not None and abs(A) >= hard:
         return (
-            f"fpt_deformer.A = {A:g} may chatter: beyond {onset} a large response error ends "
+            f"fpt_deformer.A = {A:g} may chatter: beyond the {onset} a large response error ends "
             f"in a two-cycle, while small ones decay in {interval} ({more})"
         )
     return ""

@@ -17,9 +17,9 @@ from fpt_ros.analysis.gain import (
     PRECURSOR,
     RUNS_AWAY,
     TWO_CYCLE,
-    Course,
     Gain,
 )
+from fpt_ros.analysis.gain_motion import Course
 from fpt_ros.loop.run import Array
 
 COLOURS = {
@@ -194,7 +194,9 @@ def _course(axes: Axes, gain: Gain, course: Course) -> None:
     if not gain.sign:
         _lines(axes, course, course.eigenvalues, ADVISED)
         axes.axhline(0.0, color=style.INK, linewidth=1.0)
-        axes.set_title("eigenvalues of the response: both signs occur, no A contracts", loc="left")
+        axes.set_title(
+            "eigenvalues of the response along the motion: they have to be of one sign", loc="left"
+        )
         axes.set(xlabel="t [s]", ylabel="eigenvalue")
         return
     handles = []

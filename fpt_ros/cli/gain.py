@@ -2,6 +2,7 @@
 
 import math
 import sys
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -10,7 +11,8 @@ import typer
 from fpt_ros.cli.options import Json, Name, Settings, Variant, experiment_of
 
 if TYPE_CHECKING:
-    from fpt_ros.analysis.gain import Gain, Point
+    from fpt_ros.analysis.gain import Gain
+    from fpt_ros.analysis.gain_motion import Point
     from fpt_ros.loop.experiment import Experiment
 
 Out = Annotated[
@@ -22,7 +24,11 @@ Plot = Annotated[
 ]
 
 KINDS = ("png", "svg")
-HALVINGS = 6
+ATTEMPTS = 6
+"""Runs in search of a gain that keeps control."""
+
+MARGIN = 0.9
+"""The model as it was tuned asks for another run where it allows less than this part of A."""
 
 
 def gain(
@@ -51,7 +57,7 @@ def gain(
     if out is not None:
         written += [out / f"gain.{kind}" for kind in KINDS]
     if written:
-        _draw(experiment, found, points, written)
+        _draw(experiment, replace(found, recommended=result["recommended"]), points, written)
     if out is not None:
         import json as json_module
 
@@ -77,26 +83,30 @@ def warn_about_gain(experiment: "Experiment") -> None:
 
 
 def _tried(experiment: "Experiment", found: "Gain") -> "tuple[list[Point] | None, dict[str, Any]]":
-    """A run with the recommended A, or half of it where it fails, and so on."""
-    from fpt_ros.analysis.gain import along, bounds
+    """A run with the recommended A, with less where it fails or the tuned model asks for less."""
+    from fpt_ros.analysis.gain import bounds
+    from fpt_ros.analysis.gain_motion import along
     from fpt_ros.analysis.metrics import summary
     from fpt_ros.errors import RunFailed
     from fpt_ros.loop.engine import Engine
     from fpt_ros.loop.run import Run, describe
 
-    reason = ""
-    for k in range(HALVINGS if found.sign else 0):
-        A = found.recommended * 0.5**k
+    reason, A = "", found.recommended
+    for attempt in range(ATTEMPTS if found.sign else 0):
         one = experiment if found.calculated else experiment.with_values("fpt_deformer", A=A)
         loop = one.loop()
         engine = Engine(loop)
         try:
             engine.run()
         except RunFailed as error:
-            reason = reason or str(error)
+            reason, A = reason or str(error), 0.5 * A
             continue
         points = along(engine, loop)
         there = bounds(one, points)
+        less = there.sign == found.sign and abs(there.recommended) < MARGIN * abs(A)
+        if less and not found.calculated and attempt + 1 < ATTEMPTS:
+            A = there.recommended
+            continue
         numbers = summary(Run(describe(one, "in_process", ""), one.nodes, engine.topics()))
         return points, {
             "A": None if found.calculated else A,
@@ -115,7 +125,7 @@ def _result(experiment: "Experiment", found: "Gain", tried: dict[str, Any]) -> d
     sign = found.sign or 1
     rows = [
         {
-            "from": sign * band.start,
+            "from": sign * band.start + 0.0,
             "to": sign * band.end if math.isfinite(band.end) else None,
             "behaviour": band.name,
         }
@@ -153,13 +163,15 @@ def _draw(
     experiment: "Experiment", found: "Gain", points: "list[Point] | None", paths: list[Path]
 ) -> None:
     from fpt_ros.analysis import style
-    from fpt_ros.analysis.gain import course
     from fpt_ros.analysis.gain_figure import figure
+    from fpt_ros.analysis.gain_motion import course
     from fpt_ros.errors import BadInput
 
     low, high = found.range
     plant = experiment.loop().plant.plant
     title = f"{experiment.about['title']}: contracts for A in ({low:.4g}, {high:.4g})"
+    if not found.sign:
+        title = f"{experiment.about['title']}: no A contracts"
     unit = plant.units[0] if len(set(plant.units)) == 1 else ""
     per = {1: "/s", 2: "/s²"}.get(plant.order, "")
     picture = figure(found, course(experiment, points), title, unit + per if unit else "")
@@ -186,7 +198,7 @@ def _print(experiment: "Experiment", found: "Gain", result: dict[str, Any]) -> N
     if not found.sign:
         print(
             f"{title}: no A contracts, the response's eigenvalues are between {least:.4g} and "
-            f"{greatest:.4g}: the approximate model has the wrong sign somewhere"
+            f"{greatest:.4g}, and have to be of one sign"
         )
         return
     low, high = found.range
@@ -207,6 +219,8 @@ def _print(experiment: "Experiment", found: "Gain", result: dict[str, Any]) -> N
 
 def _remarks(experiment: "Experiment", found: "Gain", result: dict[str, Any]) -> list[str]:
     """What the table does not say."""
+    from fpt_ros.tuning import WEIGHTS
+
     least, greatest = found.eigenvalues
     tried = result["run"] or {}
     first = (
@@ -230,6 +244,12 @@ def _remarks(experiment: "Experiment", found: "Gain", result: dict[str, Any]) ->
             f"response error of {found.reach / abs(found.given):.4g})"
             if found.given
             else f"|A| h > {found.reach:.5g} is out of the domain of F at once"
+        )
+    loop = experiment.loop()
+    if loop.tuner.law.tunes == WEIGHTS:
+        lines.append(
+            "the tuner multiplies A by weights: with A = "
+            f"{found.given:g} they contract up to {found.linear_limit / abs(found.given):.4g}"
         )
     if experiment.nodes["denoiser"]["method"] != "none":
         lines.append("the filter (denoiser.method) is left out of this analysis")

@@ -9,6 +9,7 @@ last is kept, for encoding all of them.
 
 import struct
 from dataclasses import dataclass
+from typing import Any
 
 from fpt_ros.messages.frames import SECOND, Frame, Names
 from fpt_ros.messages.topics import JOINT_TRAJECTORY, MESSAGE_FIELDS, Topic
@@ -25,19 +26,30 @@ class MalformedMessage(ValueError):
 class _Layout:
     """Where the numbers of one message layout stand."""
 
-    template: bytes
     names: Names
-    stamp: struct.Struct
-    arrays: tuple[tuple[struct.Struct, int], ...]
-    """(packer, offset) of each of the frame's vectors."""
-    fixed: tuple[tuple[int, int], ...]
-    """Byte ranges that are the same in all messages of this layout."""
+    whole: struct.Struct
+    """The message: seconds, nanoseconds, and in turn bytes that never change and vectors."""
+    fixed: tuple[tuple[int, bytes], ...]
+    """(place among the message's values, the bytes there)."""
+    vectors: tuple[tuple[int, int], ...]
+    """From where to where, among the message's values, each of the frame's vectors stands."""
 
-    def matches(self, data: bytes) -> bool:
-        template = self.template
-        if len(data) != len(template):
-            return False
-        return all(data[a:b] == template[a:b] for a, b in self.fixed)
+    def read(self, data: bytes) -> tuple[Any, ...] | None:
+        """The message's values; None: it has another layout."""
+        if len(data) != self.whole.size:
+            return None
+        values = self.whole.unpack(data)
+        for at, raw in self.fixed:
+            if values[at] != raw:
+                return None
+        return values
+
+    def blank(self) -> list[Any]:
+        """The message's values with the numbers still to be filled in."""
+        values: list[Any] = list(self.whole.unpack(bytes(self.whole.size)))
+        for at, raw in self.fixed:
+            values[at] = raw
+        return values
 
 
 class Codec:
@@ -52,26 +64,28 @@ class Codec:
         self._trajectory = topic.type == JOINT_TRAJECTORY
         self._slots = tuple(self._fields.index(name) for name in topic.fields)
         self._make = topic.frame
-        self._encoders: dict[tuple[Names, tuple[int, ...]], tuple[_Layout, bytearray]] = {}
+        self._encoders: dict[tuple[Names, tuple[int, ...]], _Layout] = {}
         self._last_key: tuple[Names, tuple[int, ...]] | None = None
-        self._last: tuple[_Layout, bytearray] | None = None
+        self._last: _Layout | None = None
+        self._values: list[Any] = []
         self._decoder: _Layout | None = None
 
     def encode(self, frame: Frame) -> bytes:
         """CDR of a frame (little endian, XCDR1, as Fast DDS writes it)."""
         stamp, names = frame[0], frame[1]
         vectors = frame[2:]
-        key = (names, tuple([len(vector) for vector in vectors]))
-        if key != self._last_key or self._last is None:
-            if key not in self._encoders:
-                layout = self._build(names, key[1])
-                self._encoders[key] = layout, bytearray(layout.template)
-            self._last_key, self._last = key, self._encoders[key]
-        layout, buffer = self._last
-        layout.stamp.pack_into(buffer, _HEADER, *divmod(stamp, SECOND))
-        for (packer, offset), vector in zip(layout.arrays, vectors, strict=True):
-            packer.pack_into(buffer, offset, *vector)
-        return bytes(buffer)
+        key = (names, tuple(map(len, vectors)))
+        if key != self._last_key:
+            layout = self._encoders.get(key)
+            if layout is None:
+                layout = self._encoders[key] = self._build(names, key[1])
+            self._last_key, self._last, self._values = key, layout, layout.blank()
+        assert self._last is not None
+        layout, values = self._last, self._values
+        values[1], values[2] = divmod(stamp, SECOND)
+        for (start, end), vector in zip(layout.vectors, vectors, strict=True):
+            values[start:end] = vector
+        return layout.whole.pack(*values)
 
     def decode(self, data: bytes) -> Frame:
         """Frame of CDR bytes.
@@ -80,11 +94,12 @@ class Codec:
             MalformedMessage: the bytes are cut or not of this type.
         """
         layout = self._decoder
-        if layout is None or not layout.matches(data):
+        values = layout.read(data) if layout is not None else None
+        if layout is None or values is None:
             layout = self._decoder = self._parse(data)
-        seconds, nanoseconds = layout.stamp.unpack_from(data, _HEADER)
-        vectors = [packer.unpack_from(data, offset) for packer, offset in layout.arrays]
-        return self._make(seconds * SECOND + nanoseconds, layout.names, *vectors)
+            values = layout.whole.unpack(data)
+        vectors = [values[start:end] for start, end in layout.vectors]
+        return self._make(values[1] * SECOND + values[2], layout.names, *vectors)
 
     def _build(self, names: Names, lengths: tuple[int, ...]) -> _Layout:
         """Layout of a message with these names, its frame's vectors of these lengths."""
@@ -154,27 +169,36 @@ class Codec:
         names = tuple(text() for _ in range(min(word(), len(data))))
         if self._trajectory and word() != 1:
             raise IndexError
-        fixed_from, fixed = _HEADER + 8, []
-        arrays: list[tuple[struct.Struct, int]] = []
+        form, size, since = f"{order}{_HEADER}siI", 3, _HEADER + 8
+        fixed: list[tuple[int, bytes]] = [(0, data[:_HEADER])]
+        arrays: list[tuple[int, int]] = []
+
+        def keep(end: int) -> None:
+            """The bytes from the last vector up to ``end`` never change."""
+            nonlocal form, size, since
+            if end > since:
+                fixed.append((size, data[since:end]))
+                form, size = f"{form}{end - since}s", size + 1
+            since = end
+
         for _ in self._fields:
             length = word()
-            if length:
-                at += -(at - _HEADER) % 8
-                fixed.append((fixed_from, at))
-            packer = struct.Struct(f"{order}{min(length, len(data))}d")
-            packer.unpack_from(data, at)
-            arrays.append((packer, at))
-            at += 8 * length
-            if length:
-                fixed_from = at
+            if not length:
+                arrays.append((0, 0))
+                continue
+            at += -(at - _HEADER) % 8
+            keep(at)
+            if at + 8 * length > len(data):
+                raise IndexError
+            arrays.append((size, size + length))
+            form, size = f"{form}{length}d", size + length
+            at = since = at + 8 * length
         if self._trajectory:
             struct.unpack_from(order + "iI", data, at + -(at - _HEADER) % 4)
-        else:
-            fixed.append((fixed_from, at))
+        keep(at)
         return _Layout(
-            template=data,
             names=names,
-            stamp=struct.Struct(order + "iI"),
-            arrays=tuple(arrays[slot] for slot in self._slots),
-            fixed=((0, _HEADER), *((a, b) for a, b in fixed if b > a)),
+            whole=struct.Struct(f"{form}{len(data) - since}x"),
+            fixed=tuple(fixed),
+            vectors=tuple(arrays[slot] for slot in self._slots),
         )

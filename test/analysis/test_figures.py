@@ -79,14 +79,14 @@ def test_tuned_parameters_stand_beside_their_exact_values(make):
         exact = [line for line in axes.lines if len(set(line.get_xdata())) == 2]
         found[axes.get_ylabel()] = exact[0].get_ydata()[0] if exact else None
     coefficients = {"m": 10.0, "mu": 1.0, "mu_c": 3.0, "k": 100.0, "beta": 1.0, "lambda": 2.0}
-    assert found == {**coefficients, "precursor": None, "gain_factor": None}
+    assert found == {**coefficients, "precursor": None}
     assert chart.thesis == "Fig. 2.11"
 
 
 def test_only_runs_with_a_tuner_have_a_column_of_parameters(make):
     runs = [make("vdp_rfpt", "fixed_model", 1.0), make("vdp_rfpt", duration=1.0)]
-    # six coefficients, the precursor and the gain's factor
-    assert len(visible(charts(runs)["parameters"])) == 8
+    # six coefficients and the precursor; a guard's factor only where there is one
+    assert len(visible(charts(runs)["parameters"])) == 7
     assert "parameters" not in charts(runs[:1])
 
 

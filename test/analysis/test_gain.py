@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from command import fpt, fpt_json
 
-from fpt_ros.analysis import gain
+from fpt_ros.analysis import gain, gain_motion
 from fpt_ros.analysis.gain_map import scalar_map
 from fpt_ros.errors import BadInput
 from fpt_ros.loop.engine import Engine
@@ -144,10 +144,16 @@ def test_sign_of_the_gain_follows_the_response():
     turned = bounds("siso_affine", plant_simulator__exact__alpha=-1.0)
     assert turned.sign == 1
     assert turned.range[0] == 0.0
+    assert turned.recommended == 1.2
     both = bounds("mimo_affine", plant_simulator__exact__m22=-2.0)
     assert both.sign == 0
     assert not both.contracts(-0.1)
     assert not both.contracts(0.1)
+    assert "no fpt_deformer.A contracts" in gain.warning(
+        load("mimo_affine", settings=["plant_simulator.exact.m22=-2.0"])
+    )
+    nothing = bounds("siso_affine", plant_simulator__exact__alpha=0.0)
+    assert nothing.sign == 0
 
 
 def test_a_model_of_the_wrong_sign_in_the_map():
@@ -269,8 +275,8 @@ def test_nominal_and_driven_motion_agree_and_the_driven_one_knows_q1():
     loop = experiment.loop()
     engine = Engine(loop)
     engine.run()
-    points = gain.along(engine, loop)
-    course = gain.course(experiment, points)
+    points = gain_motion.along(engine, loop)
+    course = gain_motion.course(experiment, points)
     # the larger eigenvalue is (M~ + m~ s^2)/(M + m s^2), the smaller Theta~/Theta
     s2 = np.array([math.sin(point.q[0]) ** 2 for point in points])
     assert course.eigenvalues[:, 1] == pytest.approx((20 + 10 * s2) / (30 + 20 * s2), rel=1e-7)

@@ -6,7 +6,7 @@ import stat
 import pytest
 from rich.console import Console
 
-from fpt_ros.analysis import report
+from fpt_ros.analysis import whole_files
 from fpt_ros.analysis.metrics import summary
 from fpt_ros.analysis.report import differences, write_report
 from fpt_ros.analysis.tables import console_table, content, number_text, ratio_text
@@ -123,9 +123,9 @@ def test_a_write_that_fails_leaves_the_old_file(tmp_path, monkeypatch):
     def fail(*_):
         raise OSError("disk full")
 
-    monkeypatch.setattr(report.os, "replace", fail)
+    monkeypatch.setattr(whole_files.os, "replace", fail)
     with pytest.raises(OSError, match="disk full"):
-        report._write(target, b"new")
+        whole_files.write_whole(target, b"new")
     assert target.read_text() == "old"
     assert list(tmp_path.iterdir()) == [target]
 
