@@ -1,6 +1,7 @@
 # make demo   the TORA experiment over DDS, recorded and reported
 # make test   all tests
-# Both set up what is missing: a .venv with ROS 2 Jazzy (from PyPI) and this package in it.
+# make bench  all benchmarks (half an hour; the machine should be quiet)
+# All set up what is missing: a .venv with ROS 2 Jazzy (from PyPI) and this package in it.
 
 # A sourced ROS or another venv must not leak into ours.
 unexport PYTHONPATH PYTHONHOME LD_LIBRARY_PATH AMENT_PREFIX_PATH COLCON_PREFIX_PATH
@@ -12,10 +13,10 @@ BIN := $(VENV)/bin
 READY := $(VENV)/.ready
 DEMO := demo
 
-.PHONY: help setup demo test lint clean
+.PHONY: help setup demo test bench lint clean
 
 help:
-	@echo "make demo | test | lint | setup | clean"
+	@echo "make demo | test | bench | lint | setup | clean"
 
 setup: $(READY)
 
@@ -33,6 +34,10 @@ demo: $(READY)
 
 test: $(READY)
 	@$(BIN)/python -m pytest -n 2 --dist worksteal
+
+bench: $(READY)
+	@$(BIN)/python -m pip install --quiet --disable-pip-version-check -r requirements-bench.txt
+	@for each in graph engine realtime start; do $(BIN)/python benchmarks/$$each.py || exit 1; done
 
 lint: $(READY)
 	@$(BIN)/ruff check .

@@ -9,33 +9,34 @@ def list_experiments(json: Json = False) -> None:
     Example: fpt list
     """
     from fpt_ros.cli.output import console, print_json
-    from fpt_ros.loop.experiment import available, load
+    from fpt_ros.loop.experiment import BASE, available, load
 
-    experiments = [
-        {
-            "experiment": name,
-            "title": load(name).about["title"],
-            "thesis": load(name).about["thesis"],
-            "variants": {variant: load(name, variant).about["shows"] for variant in variants},
-        }
-        for name, variants in available().items()
-    ]
+    experiments = []
+    for name, variants in available().items():
+        about = {variant: load(name, variant).about for variant in variants}
+        base = about[BASE]
+        experiments.append(
+            {
+                "experiment": name,
+                "title": base["title"],
+                "thesis": base["thesis"],
+                "variants": {variant: each["shows"] for variant, each in about.items()},
+            }
+        )
     if json:
         print_json({"experiments": experiments})
         return
-    from rich.table import Column, Table
+    from rich.table import Table
+    from rich.text import Text
 
-    names = Column("experiment", no_wrap=True), Column("variant", no_wrap=True)
-    shows_column = Column("what it shows", overflow="fold")
-    table = Table(*names, shows_column, "thesis", box=None, pad_edge=False)
-    for each in experiments:
-        first = True
-        variants = each["variants"]
-        assert isinstance(variants, dict)
-        for variant, shows in variants.items():
-            head = (str(each["experiment"]), str(each["thesis"])) if first else ("", "")
-            table.add_row(head[0], variant, str(shows), head[1])
-            first = False
-        table.add_row()
-    console().print(table)
-    console().print("fpt run NAME --variant VARIANT   (adaptive: the experiment as it is)")
+    screen = console()
+    for one in experiments:
+        heading = Text(str(one["experiment"]), "bold")
+        screen.print(heading.append(f"  {one['title']} ({one['thesis']})", "dim"))
+        table = Table(box=None, show_header=False, padding=(0, 2, 0, 2))
+        shown = one["variants"]
+        assert isinstance(shown, dict)
+        for variant, shows in shown.items():
+            table.add_row(variant, Text(str(shows)))
+        screen.print(table)
+    screen.print("fpt run NAME --variant VARIANT   (adaptive: the experiment as it is)")

@@ -7,6 +7,7 @@ from typing import Any
 import typer
 
 from fpt_ros.cli import (
+    claims,
     demo,
     denoise,
     gain,
@@ -41,6 +42,7 @@ app.command("gain", help=gain.gain.__doc__)(gain.gain)
 app.command("denoise", help=denoise.denoise.__doc__)(denoise.denoise)
 app.command("info", help=info.info.__doc__)(info.info)
 app.command("reproduce", help=reproduce.reproduce.__doc__)(reproduce.reproduce)
+app.command("claims", help=claims.claims.__doc__)(claims.claims)
 app.command("demo", help=demo.demo.__doc__)(demo.demo)
 
 

@@ -1,4 +1,4 @@
-"""Chapter 2: model based adaptive control, its tuning, and fixed point transformations beside it."""
+"""Chapter 2: model based adaptive control and its tuning, and RFPT beside them."""
 
 import numpy as np
 
@@ -19,7 +19,6 @@ from fpt_ros.analysis.claims.measures import (
     response_errors,
     rms,
     settled_rms,
-    times,
     tuned,
     unit,
     window,
@@ -31,7 +30,7 @@ TITLE = "Adaptive control based on the fixed point transformation and parameter 
 # --- 2.2.1: the classical controller
 
 
-def slow_learning(runs: Runs) -> Verdict:
+def _slow_learning(runs: Runs) -> Verdict:
     start, m, exact = coefficients(runs["tuned"])["m"]
     part = learned(start, m, exact)
     fixed, found = (settled_rms(runs[key], "q1") for key in ("not tuned", "tuned"))
@@ -54,7 +53,7 @@ def _offset(R: float, start: str) -> Setup:
 RESTS, OFFSETS = (5.0, 0.2, 0.1, 0.01), (5.0, 0.2, 0.1)
 
 
-def small_r(runs: Runs) -> Verdict:
+def _small_r(runs: Runs) -> Verdict:
     def least(start: str, R: float) -> float:
         return float(tuned(runs[f"{start}, R = {R:g}"], "m")[1].min())
 
@@ -71,10 +70,9 @@ def small_r(runs: Runs) -> Verdict:
     )
 
 
-def not_compensated(runs: Runs) -> Verdict:
+def _not_compensated(runs: Runs) -> Verdict:
     quiet, tuned_, fixed = (
-        settled_rms(runs[key], "q1")
-        for key in ("undisturbed", "disturbed", "disturbed, not tuned")
+        settled_rms(runs[key], "q1") for key in ("undisturbed", "disturbed", "disturbed, not tuned")
     )
     return Verdict(
         YES if tuned_ > 1.5 * quiet and tuned_ > 0.8 * fixed else NO,
@@ -91,13 +89,11 @@ def not_compensated(runs: Runs) -> Verdict:
 CLASSICAL = (
     Claim(
         "2.2.1",
-        "2.1, 2.3-2.4",
+        "2.1-2.4",
         "The learning speed of the classical adaptive inverse dynamics controller is very small.",
         {"not tuned": Setup("vdp_aidc", "fixed"), "tuned": Setup("vdp_aidc")},
-        slow_learning,
-        (
-            Picture("2.1", "Tracking error", draw.errors("not tuned", "tuned")),
-        ),
+        _slow_learning,
+        (Picture("", "Tracking error", draw.errors("not tuned", "tuned")),),
     ),
     Claim(
         "2.2.1",
@@ -107,7 +103,7 @@ CLASSICAL = (
             **{f"rest, R = {R:g}": _offset(R, "adaptive") for R in RESTS},
             **{f"offset, R = {R:g}": _offset(R, "offset") for R in OFFSETS},
         },
-        small_r,
+        _small_r,
         (
             Picture(
                 "",
@@ -127,7 +123,7 @@ CLASSICAL = (
             "disturbed": Setup("vdp_aidc", "disturbed"),
             "disturbed, not tuned": Setup("vdp_aidc", "fixed_disturbed"),
         },
-        not_compensated,
+        _not_compensated,
         (
             Picture("2.1", "Tracking error", draw.errors("undisturbed", "disturbed")),
             Picture("2.2", "Disturbance forces", draw.disturbance("disturbed")),
@@ -141,7 +137,7 @@ CLASSICAL = (
 # --- 2.2.2: the modified tuning
 
 
-def well_learned(runs: Runs) -> Verdict:
+def _well_learned(runs: Runs) -> Verdict:
     found = coefficients(runs["alpha = 10"])
     parts = {name: learned(*found[name]) for name in ("mu", "mu_c", "beta", "lambda")}
     good = {name: part >= 0.9 for name, part in parts.items()}
@@ -150,17 +146,17 @@ def well_learned(runs: Runs) -> Verdict:
     eventually = all(learned(*longer[name]) >= 0.9 for name in parts)
     after = ", ".join(f"{name} {longer[name][1]:.4g}" for name in parts)
     status = YES if not short else ONLY_IF if eventually else NO
-    missing = f" {', '.join(short)} need longer than 60 s:" if short else ""
+    missing = f" Only if there is time: {', '.join(short)} takes longer than 60 s." if short else ""
     return Verdict(
         status,
         {f"{name}, part of its error that is gone after 60 s": p for name, p in parts.items()},
-        f"At least 90 % of the initial error of each counts as well learned.{missing} after "
+        f"At least 90 % of the initial error of each counts as well learned.{missing} After "
         f"1200 s they are {after} (exact 1, 3, 1, 2).",
         coefficient_table({"60 s": runs["alpha = 10"], "1200 s": runs["alpha = 10, 1200 s"]}),
     )
 
 
-def slowly_approximated(runs: Runs) -> Verdict:
+def _slowly_approximated(runs: Runs) -> Verdict:
     measured: dict[str, float | str | None] = {}
     for key, run in runs.items():
         measured[f"Theta1 = m^, {key} (exact 10)"] = last(run, "m")
@@ -179,7 +175,7 @@ def slowly_approximated(runs: Runs) -> Verdict:
     )
 
 
-def precise_without_knowing(runs: Runs) -> Verdict:
+def _precise_without_knowing(runs: Runs) -> Verdict:
     run = runs["alpha = 10"]
     found = settled_rms(run, "q1")
     away = {name: abs(x - exact) / exact for name, (_, x, exact) in coefficients(run).items()}
@@ -197,7 +193,7 @@ def precise_without_knowing(runs: Runs) -> Verdict:
 AMPLITUDES = (1.0, 2.0, 5.0, 10.0, 20.0, 50.0)
 
 
-def vulnerable(runs: Runs) -> Verdict:
+def _vulnerable(runs: Runs) -> Verdict:
     lost = {A: not complete(runs[f"A = {A:g}"]) for A in AMPLITUDES}
     fatal = [A for A in AMPLITUDES if lost[A]]
     measured: dict[str, float | str | None] = {}
@@ -212,9 +208,11 @@ def vulnerable(runs: Runs) -> Verdict:
     strong = runs["A = 50"]
     time, m = tuned(strong, "m")
     small = time[m < 1.0]
-    when = f" m^ < 1 from {small[0]:.2f} s on, control is lost at {end(strong):.2f} s." if (
-        len(small) and lost[50.0]
-    ) else ""
+    when = (
+        f" m^ < 1 from {small[0]:.2f} s on, control is lost at {end(strong):.2f} s."
+        if (len(small) and lost[50.0])
+        else ""
+    )
     if not fatal:
         status, why = NO, "None of these disturbances makes the run diverge."
     elif fatal[0] <= 5.0:
@@ -226,11 +224,13 @@ def vulnerable(runs: Runs) -> Verdict:
             f"{0.836 * fatal[0]:.3g}, against control forces of some 150."
         )
     return Verdict(
-        status, measured, f"{why} A disturbance drags m^ to zero, where tuning and feedback stop.{when}"
+        status,
+        measured,
+        f"{why} A disturbance drags m^ to zero, where tuning and feedback stop.{when}",
     )
 
 
-def disturbed_slowly(runs: Runs) -> Verdict:
+def _disturbed_slowly(runs: Runs) -> Verdict:
     quiet, loud = (settled_rms(runs[key], "q1") for key in ("undisturbed", "disturbed"))
     return Verdict(
         YES if loud > 10.0 * quiet else ONLY_IF if loud > quiet else NO,
@@ -258,7 +258,7 @@ MODIFIED_CLAIMS = (
             "alpha = 10": MODIFIED,
             "alpha = 10, 1200 s": Setup("vdp_modified", duration=1200.0),
         },
-        well_learned,
+        _well_learned,
         (Picture("2.6, 2.7", "Tuning of the parameters", draw.parameters("alpha = 10")),),
     ),
     Claim(
@@ -270,20 +270,22 @@ MODIFIED_CLAIMS = (
             "alpha = 10, 300 s": Setup("vdp_modified", duration=300.0),
             "alpha = 10, 1200 s": Setup("vdp_modified", duration=1200.0),
         },
-        slowly_approximated,
+        _slowly_approximated,
     ),
     Claim(
         "2.2.2",
         "2.5-2.7",
-        "Exact knowledge of the parameters that the motion tells nothing about is not necessary for "
+        "Exact knowledge of the parameters that the motion tells nothing about is not necessary "
+        "for "
         "precise tracking.",
         {"alpha = 10": MODIFIED},
-        precise_without_knowing,
+        _precise_without_knowing,
     ),
     Claim(
         "2.2.2",
         "",
-        "The speedy learning (alpha = 10) is very vulnerable: even very small external disturbances "
+        "The speedy learning (alpha = 10) is very vulnerable: even very small external "
+        "disturbances "
         "make it diverge.",
         {
             **{
@@ -294,29 +296,30 @@ MODIFIED_CLAIMS = (
             },
             "A = 50": Setup("vdp_modified", "alpha10_disturbed"),
         },
-        vulnerable,
+        _vulnerable,
         (
             Picture(
-                "", "The estimated inertia", draw.parameters("A = 1", "A = 10", "A = 50", names=("m",))
+                "",
+                "The estimated inertia",
+                draw.parameters("A = 1", "A = 10", "A = 50", names=("m",)),
             ),
         ),
     ),
     Claim(
         "2.2.2",
         "2.8-2.9",
-        "With alpha = 1 a limited disturbance also disturbs the tuning and decreases the quality of "
+        "With alpha = 1 a limited disturbance also disturbs the tuning and decreases the quality "
+        "of "
         "the tracking.",
         {
             "undisturbed": Setup("vdp_modified", "alpha1"),
             "disturbed": Setup("vdp_modified", "alpha1_disturbed"),
         },
-        disturbed_slowly,
+        _disturbed_slowly,
         (
             Picture("2.8", "Tracking error", draw.errors("undisturbed", "disturbed")),
             Picture("2.8", "Disturbance forces", draw.disturbance("disturbed")),
-            Picture(
-                "2.9", "Tuning of the parameters", draw.parameters("undisturbed", "disturbed")
-            ),
+            Picture("2.9", "Tuning of the parameters", draw.parameters("undisturbed", "disturbed")),
         ),
     ),
 )
@@ -324,19 +327,21 @@ MODIFIED_CLAIMS = (
 # --- 2.3: RFPT beside the modified tuning
 
 
-def misled(runs: Runs) -> Verdict:
+def _misled(runs: Runs) -> Verdict:
     found = coefficients(runs["RFPT and tuning"])
-    away = {name: abs(x - exact) for name, (_, x, exact) in found.items()}
-    name = max(away, key=lambda key: away[key])
+    name = min(found, key=lambda key: learned(*found[key]))
+    worse = [key for key, each in found.items() if learned(*each) < 0.0]
     return Verdict(
-        YES if away[name] > 5.0 else NO,
+        YES if len(worse) >= 2 else ONLY_IF if worse else NO,
         {f"{key} at the end (exact {exact:g})": x for key, (_, x, exact) in found.items()},
-        f"The disturbance leads {name} {away[name]:.3g} away from its exact value.",
+        f"The disturbance leads {name} to {found[name][1]:.3g}, farther from the exact "
+        f"{found[name][2]:g} "
+        f"than the {found[name][0]:g} that it started with.",
         coefficient_table(runs),
     )
 
 
-def learns_with_rfpt(runs: Runs) -> Verdict:
+def _learns_with_rfpt(runs: Runs) -> Verdict:
     names = ("mu", "mu_c", "beta", "lambda")
     slow, fast = (coefficients(runs[key]) for key in ("alpha = 1", "alpha = 10"))
     parts = {key: {n: learned(*c[n]) for n in names} for key, c in (("1", slow), ("10", fast))}
@@ -349,7 +354,8 @@ def learns_with_rfpt(runs: Runs) -> Verdict:
         status = ONLY_IF
         gone = ", ".join(f"{n} {p:.0%}" for n, p in parts["10"].items())
         why = (
-            "Only what the motion tells can be learned (not m and k), and only with time: after 60 s "
+            "Only what the motion tells can be learned (not m and k), and only with time: after "
+            "60 s "
             f"with alpha = 10 the errors are gone by {gone}."
         )
     else:
@@ -368,7 +374,7 @@ def learns_with_rfpt(runs: Runs) -> Verdict:
     )
 
 
-def whatever_tuning(runs: Runs) -> Verdict:
+def _whatever_tuning(runs: Runs) -> Verdict:
     slow, fast = runs["alpha = 1, A = 100"], runs["alpha = 10, A = 50"]
     time, m = tuned(fast, "m")
     gone = time[m < 1.0]
@@ -385,7 +391,8 @@ def whatever_tuning(runs: Runs) -> Verdict:
             else None,
         },
         "Only if the tuning is slow enough to keep m^ away from zero: with alpha = 10 and half the "
-        "disturbance m^ is dragged to zero, and RFPT cannot help, as the model then ignores what it "
+        "disturbance m^ is dragged to zero, and RFPT cannot help, as the model then ignores what "
+        "it "
         "asks for.",
     )
 
@@ -419,7 +426,7 @@ RFPT = (
         "2.11",
         "The external perturbations mislead the parameter tuning again.",
         {"RFPT and tuning": Setup("vdp_rfpt")},
-        misled,
+        _misled,
         (Picture("2.11", "Tuning of the parameters", draw.parameters("RFPT and tuning")),),
     ),
     Claim(
@@ -432,7 +439,7 @@ RFPT = (
             "alpha = 10": Setup("vdp_rfpt", "undisturbed", ("parameter_tuner.alpha=10",)),
             "alpha = 10, no RFPT": MODIFIED,
         },
-        learns_with_rfpt,
+        _learns_with_rfpt,
         (
             Picture(
                 "", "Tuning beside RFPT, undisturbed", draw.parameters("alpha = 1", "alpha = 10")
@@ -454,7 +461,7 @@ RFPT = (
             ),
             "Kc = +1e5": Setup("vdp_rfpt", "undisturbed", ("fpt_deformer.K=1e5",)),
         },
-        whatever_tuning,
+        _whatever_tuning,
     ),
 )
 
@@ -464,7 +471,7 @@ CART = "cart_beam_hamper"
 AXES = ("q1", "q2", "q3")
 
 
-def similarly_tuned(runs: Runs) -> Verdict:
+def _similarly_tuned(runs: Runs) -> Verdict:
     without, with_it = (coefficients(runs[key]) for key in ("no RFPT", "RFPT"))
     apart = {
         name: abs(with_it[name][1] - x) / abs(x - start) for name, (start, x, _) in without.items()
@@ -475,13 +482,13 @@ def similarly_tuned(runs: Runs) -> Verdict:
         YES if similar else ONLY_IF if min(apart.values()) < 0.5 else NO,
         {f"{name}, ends apart by this part of its way": x for name, x in apart.items()},
         "With and without RFPT they end within "
-        f"{max(apart.values()):.0%} of the way that they go in 30 s, on which "
+        f"{max(apart.values()):.2%} of the way that they go in 30 s, on which "
         f"{min(gone.values()):.0%} to {max(gone.values()):.0%} of their error is taken away.",
         coefficient_table({"no RFPT": runs["no RFPT"], "RFPT": runs["RFPT"]}),
     )
 
 
-def with_friction(runs: Runs) -> Verdict:
+def _with_friction(runs: Runs) -> Verdict:
     measured: dict[str, float | str | None] = {}
     ratios, early = [], []
     for name in AXES:
@@ -500,7 +507,9 @@ def with_friction(runs: Runs) -> Verdict:
     note = (
         "In the first second RFPT is indeed not better in every coordinate."
         if exception
-        else "Here RFPT is better in the first second as well: that exception does not show."
+        else "The motion starts at rest on the nominal one, so that there is no transient here, "
+        "and "
+        "the exception does not show: RFPT is better in the first second as well."
     )
     return Verdict(
         YES if min(ratios) >= 10.0 else ONLY_IF if max(ratios) >= 10.0 else NO,
@@ -509,7 +518,7 @@ def with_friction(runs: Runs) -> Verdict:
     )
 
 
-def misled_alike(runs: Runs) -> Verdict:
+def _misled_alike(runs: Runs) -> Verdict:
     mL = {key: last(run, "mL") for key, run in runs.items() if key != "quiet"}
     loud = runs["RFPT, epsilon = 1e-6"]
     bursts = not complete(loud) or chatter(loud) > 0.01
@@ -533,7 +542,8 @@ def misled_alike(runs: Runs) -> Verdict:
             "largest settled error, epsilon = 1e-6": worst,
         },
         "Both are misled alike, and RFPT makes up for it: only if the epsilon of the Gram-Schmidt "
-        'tuning is about 1, not "small": with 1e-6 the friction drives the estimated inertia out of '
+        'tuning is about 1, not "small": with 1e-6 the friction drives the estimated inertia out '
+        "of "
         "its positive definite range, where RFPT cannot contract, and there are bursts."
         if bursts
         else "Both are misled alike, and RFPT makes up for it.",
@@ -541,7 +551,7 @@ def misled_alike(runs: Runs) -> Verdict:
     )
 
 
-def phase_space(runs: Runs) -> Verdict:
+def _phase_space(runs: Runs) -> Verdict:
     measured: dict[str, float | str | None] = {}
     crest = {}
     for key in ("no RFPT", "RFPT"):
@@ -561,13 +571,15 @@ def phase_space(runs: Runs) -> Verdict:
     return Verdict(
         YES if all(held) else ONLY_IF if any(held) else NO,
         measured,
-        f"The median of the velocity error becomes {times(reduced[1], reduced[0])}; its largest "
-        f"value is {crest['RFPT']:.3g} times the median instead of {crest['no RFPT']:.3g} times: what "
+        f"The median of the velocity error is {reduced[1] / reduced[0]:.3g} times smaller; its "
+        "largest "
+        f"value is {crest['RFPT']:.3g} times the median instead of {crest['no RFPT']:.3g} times: "
+        "what "
         "remains is concentrated where the friction turns round.",
     )
 
 
-def slotine_li(runs: Runs) -> Verdict:
+def _slotine_li(runs: Runs) -> Verdict:
     quiet, loud = (settled_rms(runs[key], "q3") for key in ("no friction", "friction"))
     best = settled_rms(runs["RFPT, friction"], "q3")
     return Verdict(
@@ -578,7 +590,8 @@ def slotine_li(runs: Runs) -> Verdict:
             "q3, rms error, modified tuning and RFPT, friction [m]": best,
             "q3, rms error, neither, friction [m]": settled_rms(runs["neither, friction"], "q3"),
         },
-        f"Friction at axle 3 makes its error {loud / quiet:.3g} times as large, larger than without "
+        f"Friction at axle 3 makes its error {loud / quiet:.3g} times as large, larger than "
+        "without "
         "any tuning; the modified controller with RFPT is "
         f"{loud / best:.3g} times as precise."
         if loud > settled_rms(runs["neither, friction"], "q3")
@@ -599,7 +612,7 @@ CART_CLAIMS = (
             "neither, friction": Setup(CART, "fixed_model_lugre"),
             "RFPT, friction": Setup(CART, "lugre"),
         },
-        slotine_li,
+        _slotine_li,
         (Picture("", "Tracking error, Slotine-Li", draw.errors("no friction", "friction")),),
     ),
     Claim(
@@ -617,7 +630,8 @@ CART_CLAIMS = (
             "RFPT",
             "no RFPT",
             10.0,
-            "RFPT alone, with the model as it was, is at least as precise: tuning and RFPT coexist, "
+            "RFPT alone, with the model as it was, is at least as precise: tuning and RFPT "
+            "coexist, "
             "but the precision is RFPT's.",
             ("neither", "RFPT alone"),
         ),
@@ -629,7 +643,7 @@ CART_CLAIMS = (
         "The initially strongly over-estimated parameters are tuned in a similar manner with and "
         "without RFPT.",
         {"no RFPT": Setup(CART, "no_rfpt"), "RFPT": Setup(CART)},
-        similarly_tuned,
+        _similarly_tuned,
         (Picture("2.14", "Tuning of the parameters", draw.parameters("no RFPT", "RFPT")),),
     ),
     Claim(
@@ -638,7 +652,7 @@ CART_CLAIMS = (
         "Under LuGre friction RFPT considerably improves the tracking again, with the exception of "
         "the initial transient.",
         {"no RFPT": Setup(CART, "no_rfpt_lugre"), "RFPT": Setup(CART, "lugre")},
-        with_friction,
+        _with_friction,
         (Picture("2.15", "Tracking error", draw.errors("no RFPT", "RFPT")),),
     ),
     Claim(
@@ -651,16 +665,17 @@ CART_CLAIMS = (
             "RFPT": Setup(CART, "lugre"),
             "RFPT, epsilon = 1e-6": Setup(CART, "lugre", ("parameter_tuner.epsilon=1e-6",)),
         },
-        misled_alike,
+        _misled_alike,
         (Picture("2.16", "Tuning of the parameters", draw.parameters("no RFPT", "RFPT")),),
     ),
     Claim(
         "2.4.6",
         "2.17-2.18",
-        "Without RFPT the errors are greater and more even; RFPT reduces them in long sections, and "
+        "Without RFPT the errors are greater and more even; RFPT reduces them in long sections, "
+        "and "
         "makes significant changes in the phase space in the problematic ones.",
         {"no RFPT": Setup(CART, "no_rfpt_lugre"), "RFPT": Setup(CART, "lugre")},
-        phase_space,
+        _phase_space,
         (
             Picture("2.17", "Phase trajectories", draw.phases("no RFPT", "RFPT")),
             Picture("2.18", "Trajectory tracking", draw.tracking("no RFPT", "RFPT")),
@@ -686,7 +701,7 @@ CART_CLAIMS = (
 MASSES = "coupled_masses"
 
 
-def same_smoothness(runs: Runs) -> Verdict:
+def _same_smoothness(runs: Runs) -> Verdict:
     ratios = {
         name: settled_rms(runs["cold"], name) / settled_rms(runs["warm"], name)
         for name in ("q1", "q2")
@@ -699,16 +714,19 @@ def same_smoothness(runs: Runs) -> Verdict:
     }
     reason = ", ".join(f"{ratio:.3g} ({name})" for name, ratio in ratios.items())
     return Verdict(
-        YES if close else NO, measured, f"Errors with a cold start over those with a warm: {reason}."
+        YES if close else NO,
+        measured,
+        f"Errors with a cold start over those with a warm: {reason}.",
     )
 
 
 WINDOWS = ((0.5, 2.0), (2.0, 5.0), (15.0, 20.0))
 
 
-def known_term(runs: Runs) -> Verdict:
+def _known_term(runs: Runs) -> Verdict:
     measured: dict[str, float | str | None] = {}
-    smaller, ratios = [], []
+    smaller: list[float] = []
+    ratios: list[float] = []
     for start, stop in WINDOWS:
         for name, what in (("known_term", "known term"), ("inner_residual", "inner residual")):
             cold, warm = (window(runs[key], name, start, stop) for key in ("cold", "warm"))
@@ -719,37 +737,37 @@ def known_term(runs: Runs) -> Verdict:
     return Verdict(
         YES if all(held) else ONLY_IF if held[-1] else NO,
         measured,
-        f"The known term itself is {1 - smaller[-1]:.0%} smaller at the end with a warm start; what "
+        f"The known term itself is {1 - smaller[-1]:.0%} smaller at the end with a warm start; "
+        "what "
         f"the inner iteration leaves unsolved of it is {1 / max(ratios):.3g} to "
         f"{1 / min(ratios):.3g} times smaller.",
     )
 
 
-def faster_learning(runs: Runs) -> Verdict:
-    cold, warm = (coefficients(runs[key]) for key in ("cold", "warm"))
-    ways = {name: (abs(cold[name][1] - s), abs(warm[name][1] - s)) for name, (s, _, _) in cold.items()}
-    faster = [name for name, (before, after) in ways.items() if after > before]
+def _faster_learning(runs: Runs) -> Verdict:
+    cold, warm = ({n: learned(*c) for n, c in coefficients(runs[key]).items()} for key in runs)
+    closer = [name for name in warm if warm[name] > cold[name]]
     named = ("m1", "k1L1", "k2", "m2g", "b2")
-    agreeing = [name for name in named if name in faster]
-    gone = {name: learned(*found) for name, found in warm.items()}
-    most = len(faster) > len(ways) / 2
+    agreeing = sum(name in closer for name in named)
+    done = sum(part >= 0.9 for part in warm.values())
+    most = len(closer) > len(warm) / 2
     return Verdict(
-        YES if most and len(agreeing) == len(named) else ONLY_IF if most else NO,
+        YES if most and agreeing == len(named) else ONLY_IF if most else NO,
         {
-            "parameters that move farther with a warm start, of 10": float(len(faster)),
-            "of theta 1, 4, 5, 9, 10": float(len(agreeing)),
-            "parameters that come closer to their exact values": float(
-                sum(part > 0.0 for part in gone.values())
-            ),
+            "parameters closer to the exact value with a warm start, of 10": float(len(closer)),
+            "of theta 1, 4, 5, 9, 10 in particular": float(agreeing),
+            "parameters with 90 % of their error gone after 20 s": float(done),
         },
-        f"Farther in 20 s with a warm start: {', '.join(faster) or 'none'}. But moving is not "
-        "learning: the columns of m1 g and k1 L1 are the same, only 8 combinations can be identified, "
-        "and with alpha = 0.3 none of them converges in 20 s.",
+        f"After 20 s {len(closer)} of 10 are closer to their exact values with the warm start. "
+        "Faster "
+        "is not far, though: m1 g and k1 L1 have the same column, so that only 8 combinations can "
+        "be "
+        "identified at all, and with alpha = 0.3 none of them is there after 20 s.",
         coefficient_table(runs),
     )
 
 
-def switched_on(runs: Runs) -> Verdict:
+def _switched_on(runs: Runs) -> Verdict:
     measured: dict[str, float | str | None] = {}
     ratios = []
     for key, run in runs.items():
@@ -761,14 +779,14 @@ def switched_on(runs: Runs) -> Verdict:
     return Verdict(
         YES if min(ratios) > 10.0 else NO,
         measured,
-        f"It becomes {min(ratios):.3g} (cold) and more times smaller within 0.2 s of 0.5 s."
-        if ratios[0] == min(ratios)
-        else f"It becomes at least {min(ratios):.3g} times smaller within 0.2 s of 0.5 s.",
+        f"It becomes at least {min(ratios):.3g} times smaller within 0.2 s.",
     )
 
 
-def inner_iteration(runs: Runs) -> Verdict:
-    scaled, printed = (window(runs[key], "inner_residual", 15.0, 20.0) for key in ("scaled", "A2 = -3"))
+def _inner_iteration(runs: Runs) -> Verdict:
+    scaled, printed = (
+        window(runs[key], "inner_residual", 15.0, 20.0) for key in ("scaled", "A2 = -3")
+    )
     literal = runs["alpha = -0.3"]
     limit_cycle = printed > 10.0 * scaled
     return Verdict(
@@ -784,15 +802,14 @@ def inner_iteration(runs: Runs) -> Verdict:
     )
 
 
-def both_together(runs: Runs) -> Verdict:
+def _both_together(runs: Runs) -> Verdict:
     measured = {
         f"{name}, rms error, {key} [m]": settled_rms(run, name)
         for name in ("q1", "q2")
         for key, run in runs.items()
     }
     best = [
-        min(runs, key=lambda key: settled_rms(runs[key], name)) == "both"  # noqa: B023
-        for name in ("q1", "q2")
+        min(runs, key=lambda key: settled_rms(runs[key], name)) == "both" for name in ("q1", "q2")
     ]
     gains = [settled_rms(runs["neither"], n) / settled_rms(runs["both"], n) for n in ("q1", "q2")]
     return Verdict(
@@ -814,7 +831,7 @@ MASSES_CLAIMS = (
             "deformation alone": Setup(MASSES, "deform_only"),
             "both": Setup(MASSES),
         },
-        both_together,
+        _both_together,
     ),
     Claim(
         "2.5.2",
@@ -822,7 +839,7 @@ MASSES_CLAIMS = (
         "Starting the inner iteration at zero gives nearly the same smooth tracking as starting it "
         "at its last result.",
         {"cold": Setup(MASSES, "cold"), "warm": Setup(MASSES)},
-        same_smoothness,
+        _same_smoothness,
         (
             Picture("2.20, 2.21", "Trajectory tracking", draw.tracking("cold", "warm")),
             Picture("2.22, 2.23", "Tracking error", draw.errors("cold", "warm")),
@@ -834,7 +851,7 @@ MASSES_CLAIMS = (
         "2.26-2.27",
         "The error of the known term decreases faster when the inner iteration starts warm.",
         {"cold": Setup(MASSES, "cold"), "warm": Setup(MASSES)},
-        known_term,
+        _known_term,
         (
             Picture(
                 "2.26, 2.27",
@@ -849,7 +866,7 @@ MASSES_CLAIMS = (
         "2.28-2.31",
         "With the warm start most parameters are learned faster, such as theta 1, 4, 5, 9 and 10.",
         {"cold": Setup(MASSES, "cold"), "warm": Setup(MASSES)},
-        faster_learning,
+        _faster_learning,
         (Picture("2.28-2.31", "Dynamic parameters", draw.parameters("cold", "warm")),),
     ),
     Claim(
@@ -858,7 +875,7 @@ MASSES_CLAIMS = (
         "Once adaptivity is switched on at 0.5 s, the realised second derivatives approach the "
         "desired ones, and the deformed ones separate.",
         {"cold": Setup(MASSES, "cold"), "warm": Setup(MASSES)},
-        switched_on,
+        _switched_on,
         (
             Picture(
                 "2.32, 2.33",
@@ -876,7 +893,7 @@ MASSES_CLAIMS = (
             "A2 = -3": Setup(MASSES, settings=("parameter_tuner.scaled=false",)),
             "alpha = -0.3": Setup(MASSES, settings=("parameter_tuner.alpha=-0.3",)),
         },
-        inner_iteration,
+        _inner_iteration,
         (
             Picture(
                 "",
@@ -891,7 +908,7 @@ MASSES_CLAIMS = (
 # --- 2.6: thesis statement I
 
 
-def efficient_identification(runs: Runs) -> Verdict:
+def _efficient_identification(runs: Runs) -> Verdict:
     rows = []
     best = {}
     for key, run in runs.items():
@@ -910,9 +927,15 @@ def efficient_identification(runs: Runs) -> Verdict:
     every = all(count == total for count, total in best.values())
     return Verdict(
         YES if every else ONLY_IF if some else NO,
-        {f"{key}: parameters with 90 % of the error gone, of {n}": float(c) for key, (c, n) in best.items()},
+        {
+            f"{key}: parameters with 90 % of the error gone, of {n}": float(c)
+            for key, (c, n) in best.items()
+        },
         "Only if the motion tells the parameters apart, nothing disturbs it, and there is time.",
-        Table(("run", "90 % of the error gone", "closer than at the start", "part that is gone"), tuple(rows)),
+        Table(
+            ("run", "90 % of the error gone", "closer than at the start", "part that is gone"),
+            tuple(rows),
+        ),
     )
 
 
@@ -927,7 +950,7 @@ STATEMENT = (
             "Gram-Schmidt, cart, friction": Setup(CART, "lugre"),
             "fixed point, coupled masses, 20 s": Setup(MASSES),
         },
-        efficient_identification,
+        _efficient_identification,
     ),
 )
 

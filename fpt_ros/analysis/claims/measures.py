@@ -178,10 +178,10 @@ def precise(
             for key in (worse, better, *beside):
                 label = f"{name}, rms error, {key}{unit(runs[better], name)}"
                 measured[label] = metrics.finite(settled_rms(runs[key], name))
-        found = " and ".join(f"{ratio:.3g} ({name})" for name, ratio in ratios.items())
+        found = ", ".join(f"{ratio:.3g} ({name})" for name, ratio in ratios.items())
         held = [ratio >= factor for ratio in ratios.values()]
         status = YES if all(held) else ONLY_IF if any(held) else NO
-        reason = f"The settled error is {found} times smaller than {worse}."
+        reason = f"The settled error is {found} times smaller than of '{worse}'."
         return Verdict(status, measured, f"{reason} {remark}".strip())
 
     return judge

@@ -17,11 +17,11 @@ from fpt_ros.denoising.offline import Signal
 
 PADDING = 8
 STEPS = 6
-MOST = 16
+MOST = 12
 """Tones at most: what needs more is no sum of few sinusoids."""
 BIC = 3.0
-DF = 5.0
-"""Degrees of freedom of a tone: amplitude, phase, frequency, and 2 for the choice of its peak."""
+DF = 7.0
+"""Degrees of freedom of a tone: 3, and 4 for the choice of its peak; at 3 each, that is BIC."""
 
 
 @njit(cache=True)

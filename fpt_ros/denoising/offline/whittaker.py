@@ -1,4 +1,4 @@
-"""Whittaker smoother (a discrete smoothing spline) with the penalty of least Cp: a core of ``auto``.
+"""Whittaker smoother (discrete smoothing spline), its penalty chosen by risk: a core of ``auto``.
 
 ::
 
@@ -8,6 +8,9 @@
 The matrix has 2d + 1 bands: its Cholesky factor is LAPACK's (scipy.linalg), and the diagonal of its
 inverse comes from that factor exactly, in O(n d^2) (Hutchinson and de Hoog, Numer. Math. 47, 1985).
 Polynomials of degree below d pass unchanged.
+
+:func:`smooth_locally` chooses the penalty anew at every sample: the local risk, a Gaussian mean of
+(z - f)^2 + 2 sigma^2 h_ii - sigma^2, weighs all penalties by exp(-15 (risk - least) / sigma^2).
 """
 
 from dataclasses import dataclass
@@ -17,11 +20,16 @@ import numpy as np
 from numba import njit
 from numpy.typing import NDArray
 from scipy.linalg import cho_solve_banded, cholesky_banded
+from scipy.ndimage import gaussian_filter1d
 
 from fpt_ros.denoising.offline import Signal
 
 GRID = {2: np.logspace(-1, 10, 28), 3: np.logspace(-1, 10, 24)}
-"""Penalties lambda tried for each order d; beyond them single precision would be left of f."""
+"""Penalties lambda tried for each order d; beyond them too few digits would be left of f."""
+
+WIDTH = 20.0
+"""Standard deviation of the window of the local risk [samples]."""
+SHARPNESS = 15.0
 
 
 def penalty_bands(n: int, order: int) -> Signal:
@@ -38,12 +46,12 @@ def penalty_bands(n: int, order: int) -> Signal:
 
 
 @njit(cache=True)
-def _inverse_trace(factor: Signal) -> float:
-    """Trace of (U'U)^-1 for the banded upper factor U, shape (d + 1, n)."""
+def _inverse_diagonal(factor: Signal) -> Signal:
+    """Diagonal of (U'U)^-1 for the banded upper factor U, shape (d + 1, n)."""
     d = factor.shape[0] - 1
     n = factor.shape[1]
     inverse = np.zeros((n + d, d + 1))  # [i, k] = inverse matrix at (i, i + k)
-    trace = 0.0
+    leverage = np.empty(n)
     for i in range(n - 1, -1, -1):
         diagonal = factor[d, i]
         for k in range(d, -1, -1):
@@ -55,8 +63,8 @@ def _inverse_trace(factor: Signal) -> float:
                 total -= factor[d - m, i + m] / diagonal * inverse[row, column - row]
             if i + k < n:
                 inverse[i, k] = total
-        trace += inverse[i, 0]
-    return trace
+        leverage[i] = inverse[i, 0]
+    return leverage
 
 
 @dataclass(frozen=True)
@@ -65,10 +73,12 @@ class Smoothers:
 
     Attributes:
         factors: banded Cholesky factors of I + lambda D'D.
-        traces: of the inverses: the degrees of freedom.
+        leverages: diagonals of the inverses, shape (penalties, n).
+        traces: their sums: the degrees of freedom.
     """
 
     factors: tuple[NDArray[np.float64], ...]
+    leverages: Signal
     traces: tuple[float, ...]
 
 
@@ -76,14 +86,15 @@ class Smoothers:
 def smoothers(n: int, order: int) -> Smoothers:
     """The factors of every penalty of the grid for n > order samples."""
     bands = penalty_bands(n, order)
-    factors, traces = [], []
+    factors, leverages = [], []
     for penalty in GRID[order]:
         matrix = penalty * bands
         matrix[-1] += 1.0
         factor = np.ascontiguousarray(cholesky_banded(matrix))
         factors.append(factor)
-        traces.append(float(_inverse_trace(factor)))
-    return Smoothers(tuple(factors), tuple(traces))
+        leverages.append(_inverse_diagonal(factor))
+    traces = tuple(float(leverage.sum()) for leverage in leverages)
+    return Smoothers(tuple(factors), np.array(leverages), traces)
 
 
 def smooth(z: Signal, sigma: float, order: int) -> tuple[Signal, float]:
@@ -104,3 +115,17 @@ def smooth(z: Signal, sigma: float, order: int) -> tuple[Signal, float]:
         elif 2.0 * sigma**2 * trace > best + slack:
             break
     return estimate, df
+
+
+def smooth_locally(z: Signal, sigma: float, order: int) -> tuple[Signal, float]:
+    """The curve whose penalty varies along the signal, shape (n,), and its degrees of freedom."""
+    family = smoothers(len(z), order)
+    curves = np.array(
+        [cho_solve_banded((factor, False), z, check_finite=False) for factor in family.factors]
+    )
+    variance = sigma**2
+    pointwise = (z - curves) ** 2 + variance * (2.0 * family.leverages - 1.0)
+    risk = gaussian_filter1d(pointwise, WIDTH, axis=1, mode="reflect")
+    weight = np.exp(-SHARPNESS * (risk - risk.min(axis=0)) / variance)
+    weight /= weight.sum(axis=0)
+    return np.sum(weight * curves, axis=0), float(np.sum(weight * family.leverages)) + 1.0

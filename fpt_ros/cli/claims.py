@@ -1,0 +1,65 @@
+"""``fpt claims``: the thesis's claims, judged by runs, on one page."""
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from fpt_ros.cli.options import Json
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping, Sequence
+
+    from rich.table import Table
+
+    from fpt_ros.analysis.claims import Chapter
+    from fpt_ros.analysis.reproduce import Outcome
+
+Chapters = Annotated[
+    list[int] | None,
+    typer.Option("--chapter", metavar="N", help="Of the thesis; repeatable; default: all."),
+]
+Out = Annotated[Path, typer.Option(metavar="DIR", help="Where the page goes.")]
+
+COLOURS = {"yes": "green", "only if": "yellow", "no": "red"}
+
+
+def claims(chapter: Chapters = None, out: Out = Path("reproduction"), json: Json = False) -> None:
+    """Run the experiments of the thesis and judge each of its claims: one HTML page.
+
+    Example: fpt claims --chapter 3 --out /tmp/reproduction
+    """
+    from time import perf_counter
+
+    from fpt_ros.analysis.reproduce import as_json, check_directory, judge_all, wanted, write_page
+    from fpt_ros.cli.output import console, print_json, progress_bar
+
+    asked = wanted(chapter or ())
+    check_directory(out)
+    started = perf_counter()
+    total = sum(len(one.claims) for one in asked)
+    with progress_bar("reproduce", total, "claims") as bar:
+        found = judge_all(asked, bar)
+    page = write_page(asked, found, out, perf_counter() - started)
+    if json:
+        print_json({**as_json(asked, found), "page": str(page)})
+        return
+    console().print(_table(asked, found))
+    console().print(f"page: {page}", soft_wrap=True)
+
+
+def _table(asked: "Sequence[Chapter]", found: "Mapping[str, Outcome]") -> "Table":
+    """The verdicts for the terminal."""
+    from rich import box
+    from rich.table import Table
+    from rich.text import Text
+
+    table = Table(box=box.SIMPLE_HEAD)
+    for heading in ("", "claim", "reproduces"):
+        table.add_column(heading)
+    for one in asked:
+        for name, claim in one.claims.items():
+            status = found[name].verdict.status
+            table.add_row(name, Text(claim.text), Text(status, COLOURS[status]))
+        table.add_section()
+    return table
