@@ -27,7 +27,6 @@ setup(
     package_data={
         "fpt_ros": ["py.typed"],
         "fpt_ros.analysis": ["*.html.j2", "*.css"],
-        "fpt_ros.reproduction": ["*.html.j2"],
     },
     data_files=[
         ("share/ament_index/resource_index/packages", ["resource/fpt_ros"]),

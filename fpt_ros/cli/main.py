@@ -7,7 +7,6 @@ from typing import Any
 import typer
 
 from fpt_ros.cli import (
-    claims,
     demo,
     denoise,
     gain,
@@ -18,7 +17,6 @@ from fpt_ros.cli import (
     run,
     simulate,
     sweep,
-    tune,
 )
 from fpt_ros.errors import FptError
 
@@ -35,14 +33,12 @@ app = typer.Typer(
 app.command("list", help=listing.list_experiments.__doc__)(listing.list_experiments)
 app.command("simulate", help=simulate.simulate.__doc__)(simulate.simulate)
 app.command("sweep", help=sweep.sweep.__doc__)(sweep.sweep)
-app.command("tune", help=tune.tune.__doc__)(tune.tune)
 app.command("run", help=run.run.__doc__)(run.run)
 app.command("report", help=report.report.__doc__)(report.report)
 app.command("gain", help=gain.gain.__doc__)(gain.gain)
 app.command("denoise", help=denoise.denoise.__doc__)(denoise.denoise)
 app.command("info", help=info.info.__doc__)(info.info)
 app.command("reproduce", help=reproduce.reproduce.__doc__)(reproduce.reproduce)
-app.command("claims", help=claims.claims.__doc__)(claims.claims)
 app.command("demo", help=demo.demo.__doc__)(demo.demo)
 
 

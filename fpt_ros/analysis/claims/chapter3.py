@@ -21,6 +21,7 @@ from fpt_ros.analysis.claims import (
 )
 from fpt_ros.analysis.claims import drawings as draw
 from fpt_ros.analysis.claims.measures import (
+    because,
     chatter,
     complete,
     end,
@@ -139,14 +140,15 @@ def _slow_monotone(runs: Runs) -> Verdict:
     monotone = bool(
         (np.diff(np.abs(seen)) < 0.0).all() and (np.sign(seen) == np.sign(seen[0])).all()
     )
+    held = monotone and below(h, 1e-6) is not None
     return Verdict(
-        YES if monotone and below(h, 1e-6) is not None else NO,
+        YES if held else NO,
         {
             "iterations until |h| < 1e-2": below(h, 1e-2),
             "iterations until |h| < 1e-6": below(h, 1e-6),
             "contraction at the end": float(seen[20] / seen[19]),
         },
-        "|h| decreases in every iteration and keeps its sign.",
+        because(held, "|h| decreases in every iteration and keeps its sign."),
     )
 
 
@@ -173,15 +175,19 @@ def _precursor(runs: Runs) -> Verdict:
     h = sizes(runs["A = -3.12"])
     seen = h[:400]
     alternates = bool((seen[20:] * seen[19:-1] < 0.0).all())
+    held = alternates and below(h, 1e-6) is not None
     return Verdict(
-        YES if alternates and below(h, 1e-6) is not None else NO,
+        YES if held else NO,
         {
             "iterations until |h| < 1e-3": below(h, 1e-3),
             "iterations until |h| < 1e-6": below(h, 1e-6),
             "contraction at the end": float(seen[-1] / seen[-2]),
         },
-        "h changes its sign in every iteration and converges slowly, just below the limit "
-        "A = -2/F'(x*) = -3.161.",
+        because(
+            held,
+            "h changes its sign in every iteration and converges slowly, just below the limit "
+            "A = -2/F'(x*) = -3.161.",
+        ),
     )
 
 
@@ -192,16 +198,20 @@ def _bounded_chaos(runs: Runs) -> Verdict:
     exponent = float(np.mean(slopes))
     escaped = runs["A = -6.5"]
     bounded = complete(runs["A = -6"]) and float(np.abs(late).max()) < 2.0
+    held = bounded and exponent > 0.1
     return Verdict(
-        YES if bounded and exponent > 0.1 else NO,
+        YES if held else NO,
         {
             "least r of the last 1000": float(late.min() - 3.0),
             "largest r of the last 1000": float(late.max() - 3.0),
             "Lyapunov exponent [1/iteration]": exponent,
             "A = -6.5 leaves the domain of F after": None if complete(escaped) else end(escaped),
         },
-        "Bounded, and chaotic: the Lyapunov exponent is positive. From A = -6.363 on it is not "
-        "bounded any more, as the orbit leaves the domain of atanh.",
+        because(
+            held,
+            "Bounded, and chaotic: the Lyapunov exponent is positive. From A = -6.363 on it is not "
+            "bounded any more, as the orbit leaves the domain of atanh.",
+        ),
     )
 
 
@@ -469,8 +479,10 @@ def _printed_gain(runs: Runs) -> Verdict:
     return Verdict(
         YES if converged else NO,
         {"||h|| at the start": float(h[0]), "||h|| after 400 iterations": finite(float(h[-1]))},
-        "It diverges: for a response matrix with positive eigenvalues A has to be negative, as "
-        "(3.14) itself says.",
+        "It converges."
+        if converged
+        else "It diverges: for a response matrix with positive eigenvalues A has to be negative, "
+        "as (3.14) itself says.",
     )
 
 
@@ -485,7 +497,9 @@ def _negative_gain(runs: Runs) -> Verdict:
     return Verdict(
         ONLY_IF if good else NO,
         measured,
-        "Only if A is taken with the minus that the print has lost: then both gains converge.",
+        because(
+            good, "Only if A is taken with the minus that the print has lost: then both converge."
+        ),
     )
 
 
@@ -781,7 +795,11 @@ def _guarded(runs: Runs) -> Verdict:
             for name in ("q3", "q2")
             for key, run in runs.items()
         },
-        "The observer sees the deformed response alone; the guard lowers |A| until it is smooth.",
+        because(
+            quiet < 0.1 * loud,
+            "The observer sees the deformed response alone; the guard lowers |A| until that is "
+            "smooth.",
+        ),
     )
 
 
@@ -934,16 +952,19 @@ def _calculated_range(runs: Runs) -> Verdict:
     time, A = tuned(runs["calculated A"], "A")
     late = A[signals.settled(runs["calculated A"], time)]
     size = np.abs(A[1:])
+    held = bool(late.max() < 0.0 and late.min() > -4.66)
     return Verdict(
-        YES if late.max() < 0.0 and late.min() > -4.66 else NO,
+        YES if held else NO,
         {
             "least settled A": float(late.min()),
             "largest settled A": float(late.max()),
             "least |A| of all": float(size.min()),
         },
-        "A finds its value by itself and stays inside the range that contracts. (3.20) gives |A|: "
-        "the "
-        "sign is minus.",
+        because(
+            held,
+            "A finds its value by itself and stays inside the range that contracts. (3.20) gives "
+            "|A|: the sign is minus.",
+        ),
     )
 
 

@@ -21,6 +21,7 @@ from fpt_ros.analysis.claims import (
 )
 from fpt_ros.analysis.claims import drawings as draw
 from fpt_ros.analysis.claims.measures import (
+    because,
     chatter,
     complete,
     end,
@@ -54,8 +55,9 @@ STRETCHED = (
 
 def _defined_everywhere(runs: Runs) -> Verdict:
     shifted, wide = runs["shifted, no guard"], runs["stretched"]
+    held = not complete(shifted) and complete(wide)
     return Verdict(
-        YES if not complete(shifted) and complete(wide) else NO,
+        YES if held else NO,
         {
             "shifted sigmoid without guard, A = -1: ends at [s]": end(shifted),
             "stretched sigmoid, A = -1: ends at [s]": end(wide),
@@ -65,9 +67,11 @@ def _defined_everywhere(runs: Runs) -> Verdict:
             for name in ("q3", "q2")
             for key, run in runs.items()
         },
-        "On TORA the first response error throws the argument of the shifted sigmoid out of the "
-        "domain "
-        "of atanh; the stretched one is defined for every argument.",
+        because(
+            held,
+            "On TORA the first response error throws the argument of the shifted sigmoid out of "
+            "the domain of atanh; the stretched one is defined for every argument.",
+        ),
     )
 
 

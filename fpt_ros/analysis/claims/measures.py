@@ -155,6 +155,11 @@ def times(before: float, after: float) -> str:
     return "from lost" if math.isinf(before) else ratio_text(after / before)
 
 
+def because(held: bool, reason: str) -> str:
+    """The reason for what was expected, which must not be given where it did not happen."""
+    return reason if held else "The numbers do not bear it out."
+
+
 def unit(run: Run, name: str) -> str:
     """`` [rad]``, or nothing."""
     found = signals.unit(run, name)
