@@ -41,6 +41,8 @@ setup(
         "numba",
         "PyWavelets",
         "pandas",
+        "optuna>=5",
+        "pyarrow",
         "ruamel.yaml",
         "typer",
         "rich",
@@ -52,6 +54,7 @@ setup(
     ],
     extras_require={
         "test": ["pytest"],
+        "cluster": ["dask", "distributed"],
     },
     zip_safe=False,
     entry_points={
@@ -122,8 +125,10 @@ setup(
             "savgol = fpt_ros.denoising.streaming.savgol:SAVGOL",
             "wavelet = fpt_ros.denoising.streaming.wavelet:WAVELET",
             "none = fpt_ros.denoising.streaming.difference:DIFFERENCE",
-            "fitzhugh_nagumo_observer = "
-            "fpt_ros.denoising.streaming.fitzhugh_nagumo_observer:FITZHUGH_NAGUMO_OBSERVER",
+            (
+                "fitzhugh_nagumo_observer = "
+                "fpt_ros.denoising.streaming.fitzhugh_nagumo_observer:FITZHUGH_NAGUMO_OBSERVER"
+            ),
         ],
         "fpt_ros.denoisers": [
             "adaptive_savgol = fpt_ros.denoising.offline.adaptive_savgol:ADAPTIVE_SAVGOL",

@@ -31,8 +31,8 @@ class Interrupted(FptError):
 class Diverged(RunFailed):
     """The loop was lost: a quantity left its limit or ceased to be finite.
 
-    Carries ``time`` [s], ``cycle``, ``coordinate``, ``quantity``, ``value``, and the ``limit`` of the quantity
-    (``inf``: none but to be finite).
+    Carries ``time`` [s], ``cycle``, ``coordinate``, ``quantity``, ``value``, ``remedy``, and the
+    ``limit`` of the quantity (``inf``: none but to be finite).
     """
 
     def __init__(
@@ -52,7 +52,8 @@ class Diverged(RunFailed):
         where = "" if cycle is None else f" in cycle {cycle}"
         hint = f" ({remedy})" if remedy else ""
         super().__init__(
-            f"diverged at t = {time:.6g} s: the {quantity} of {coordinate}, {value:g}, {why}{where}{hint}"
+            f"diverged at t = {time:.6g} s: the {quantity} of {coordinate}, {value:g}, "
+            f"{why}{where}{hint}"
         )
 
     def because(self, remedy: str) -> "Diverged":

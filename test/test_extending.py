@@ -1,4 +1,4 @@
-"""The package of docs/extending.md, taken from the page, installed, simulated and run as a graph."""
+"""The package of docs/extending.md, as the page has it: installed, simulated, run as a graph."""
 
 import json
 import os

@@ -53,7 +53,7 @@ CAPTIONS = {
     "parameters": Caption(
         "Tuned parameters",
         "What is tuned over time, and (dashed) the values that the exact parameters of the plant "
-        "would give it, where there are such. precursor: the index of the precursor observer, 1 for "
+        "would give it, where there are such. precursor: index of the precursor observer, 1 for "
         "a response that is smooth from cycle to cycle, below 0 where it oscillates; gain_factor: "
         "what the guard leaves of the gain.",
     ),

@@ -31,7 +31,7 @@ from fpt_ros.loop.run import Run, describe
 
 TEMPLATE = "reproduce.html.j2"
 DPI = 110
-COLOURS = 64
+COLOURS = 128
 LOOP = 4
 """Runs that differ in one value are written as one loop of the shell where they are more."""
 
@@ -172,7 +172,7 @@ def _png(figure: Figure) -> bytes:
     pixels = np.asarray(canvas.buffer_rgba())  # type: ignore[no-untyped-call]
     image = Image.fromarray(pixels[:, :, :3].copy())
     buffer = io.BytesIO()
-    image.quantize(COLOURS, Image.Quantize.FASTOCTREE, dither=Image.Dither.NONE).save(
+    image.quantize(COLOURS, Image.Quantize.MEDIANCUT, dither=Image.Dither.NONE).save(
         buffer, format="png", optimize=True
     )
     return buffer.getvalue()

@@ -170,6 +170,6 @@ def _compare(source: "Source", json: bool) -> None:
     screen = console()
     screen.print(table)
     screen.print(
-        "robust: median size of the residual / 0.6745. The residual of a good estimate is the noise: "
-        "both near sigma where there are no impulses. roughness: rms of the second difference."
+        "robust: median size of the residual / 0.6745. The residual of a good estimate is the "
+        "noise: both near sigma where there are no impulses. roughness: rms of the second difference."
     )

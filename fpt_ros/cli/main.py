@@ -17,6 +17,7 @@ from fpt_ros.cli import (
     run,
     simulate,
     sweep,
+    tune,
 )
 from fpt_ros.errors import FptError
 
@@ -33,6 +34,7 @@ app = typer.Typer(
 app.command("list", help=listing.list_experiments.__doc__)(listing.list_experiments)
 app.command("simulate", help=simulate.simulate.__doc__)(simulate.simulate)
 app.command("sweep", help=sweep.sweep.__doc__)(sweep.sweep)
+app.command("tune", help=tune.tune.__doc__)(tune.tune)
 app.command("run", help=run.run.__doc__)(run.run)
 app.command("report", help=report.report.__doc__)(report.report)
 app.command("gain", help=gain.gain.__doc__)(gain.gain)

@@ -78,7 +78,7 @@ def _spectro(t: Signal) -> Signal:
     f = np.zeros_like(t)
     for place, height, width in _LINES:
         f += height / (1 + ((t - place) / width) ** 2)
-    return f - f.mean()
+    return np.asarray(f - f.mean())
 
 
 def _twotone(t: Signal) -> Signal:

@@ -16,7 +16,7 @@ def force(constants: Vector, state: MutableVector, t: float, h: float, q: float,
     """Force at t [s]; ``frequency`` in knots per second."""
     amplitude, frequency = constants[0], constants[1]
     n = len(CONTROL_POINTS)
-    knot = int(math.floor(frequency * t))
+    knot = math.floor(frequency * t)
     s = frequency * t - knot
     c0 = CONTROL_POINTS[knot % n]
     c1 = CONTROL_POINTS[(knot + 1) % n]

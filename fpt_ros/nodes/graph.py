@@ -21,7 +21,7 @@ from fpt_ros.loop.description import NODE as RECORDER
 from fpt_ros.loop.experiment import Experiment
 from fpt_ros.loop.plant_simulator import PlantSimulator
 from fpt_ros.loop.stages import STAGES
-from fpt_ros.nodes import middleware, shared_memory
+from fpt_ros.nodes import shared_memory
 
 STALL = 60.0
 """Seconds without a new cycle after which the graph is given up."""
@@ -100,8 +100,7 @@ def run(
         if namespace:
             arguments += ["-r", f"__ns:=/{namespace.strip('/')}"]
         with shared_memory.left_as_found():
-            tuned = middleware.environment(Path(folder))
-            asyncio.run(_Graph(arguments, composed, recorded, tuned, progress).run())
+            asyncio.run(_Graph(arguments, composed, recorded, progress).run())
 
 
 def environment() -> Mapping[str, str]:
@@ -130,12 +129,10 @@ class _Graph:
         arguments: list[str],
         composed: bool,
         recorded: bool,
-        tuned: Mapping[str, str],
         progress: Callable[[int], None] | None,
     ) -> None:
         self._arguments = arguments
         self._recorded = recorded
-        self._tuned = tuned
         self._loop_names = ["composed"] if composed else list(reversed(STAGES))
         self._plant = "composed" if composed else PlantSimulator.name
         self._progress = progress
@@ -220,11 +217,7 @@ class _Graph:
             stdin=asyncio.subprocess.DEVNULL,
             stdout=asyncio.subprocess.PIPE,
             stderr=asyncio.subprocess.STDOUT,
-            env={
-                **self._tuned,
-                **environment(),
-                **{key: str(fd) for key, fd in descriptors.items()},
-            },
+            env={**environment(), **{key: str(fd) for key, fd in descriptors.items()}},
             pass_fds=tuple(descriptors.values()),
             start_new_session=True,
             preexec_fn=_die_with_parent,

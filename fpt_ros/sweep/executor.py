@@ -108,12 +108,13 @@ class ClusterPool(Pool):
 
     def __init__(self, address: str) -> None:
         try:
-            from distributed import Client
+            import distributed
         except ImportError as error:
             raise BadInput("--scheduler takes dask: pip install 'fpt_ros[cluster]'") from error
+        client: Any = distributed.Client  # dask has no types
         logging.getLogger("distributed").setLevel(logging.CRITICAL)
         try:
-            self._client = Client(address, timeout=CONNECT, set_as_default=False)
+            self._client: Any = client(address, timeout=CONNECT, set_as_default=False)
         except Exception as error:  # a dozen kinds, from a bad name to a foreign protocol
             raise BadInput(
                 f"--scheduler {address}: no dask scheduler answers there, "
@@ -124,7 +125,8 @@ class ClusterPool(Pool):
     @property
     def slots(self) -> int:
         """Threads of all workers that are there now."""
-        return max(1, sum(self._client.ncores().values()))
+        cores: int = sum(self._client.ncores().values())
+        return max(1, cores)
 
     def repair(self, error: BaseException) -> None:
         """Dask restarts workers itself; only the scheduler must still be there."""

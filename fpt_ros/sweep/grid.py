@@ -87,7 +87,7 @@ class Axis:
             low, high = sorted((self.start, self.stop))
             return int(low + math.floor(share * (high - low + 1.0)))
         if self.log:
-            return self.start * (self.stop / self.start) ** share
+            return self.start * math.exp(share * math.log(self.stop / self.start))
         return self.start + share * (self.stop - self.start)
 
 

@@ -39,7 +39,7 @@ class Journal:
         """
         self._size, self._width, self._outcome = size, width, outcome
         self._where = array("q", [-1]) * size
-        self.done = self.lost = 0
+        self.done = self.lost = self._end = 0
         try:
             self._file = path.open("a+b")
         except OSError as error:

@@ -238,7 +238,13 @@ def _paint(
         missing = ~np.isfinite(z)
         panel.plot(x[missing], y[missing], ".", color="#8a8a95", markersize=4, rasterized=True)
         shading = panel.scatter(
-            x[~missing], y[~missing], c=z[~missing], norm=norm, cmap="viridis", s=14, rasterized=True
+            x[~missing],
+            y[~missing],
+            c=z[~missing],
+            norm=norm,
+            cmap="viridis",
+            s=14,
+            rasterized=True,
         )
     picture = panel.get_figure()
     assert picture is not None
@@ -265,22 +271,20 @@ def _edges(centres: Array) -> Array:
 
 def _edges_of(centres: Array) -> Array:
     inner = 0.5 * (centres[:-1] + centres[1:])
-    return np.concatenate(
-        ([2.0 * centres[0] - inner[0]], inner, [2.0 * centres[-1] - inner[-1]])
-    )
+    return np.concatenate(([2.0 * centres[0] - inner[0]], inner, [2.0 * centres[-1] - inner[-1]]))
 
 
 def _clouds(table: Table, names: Sequence[str], shown: Sequence[str]) -> Figure:
     """Each quantity over each parameter: what is left where there are more than two."""
-    picture = Figure(
-        figsize=(3.4 * len(names) + 0.6, 2.6 * len(shown) + 0.8), layout="constrained"
-    )
+    picture = Figure(figsize=(3.4 * len(names) + 0.6, 2.6 * len(shown) + 0.8), layout="constrained")
     grid = picture.subplots(len(shown), len(names), squeeze=False, sharex="col", sharey="row")
     for row, metric in enumerate(shown):
         y = _good(table, metric)
         for column, name in enumerate(names):
             panel = grid[row, column]
-            panel.plot(table[name], y, ".", color=style.COORDINATES[0], markersize=3, rasterized=True)
+            panel.plot(
+                table[name], y, ".", color=style.COORDINATES[0], markersize=3, rasterized=True
+            )
             if np.nanmin(y, initial=np.inf) > 0.0 and not np.isnan(y).all():
                 panel.set_yscale("log")
             if not column:

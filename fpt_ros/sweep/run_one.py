@@ -18,7 +18,7 @@ from fpt_ros.loop.engine import Engine
 from fpt_ros.loop.experiment import SECTIONS, Experiment, Loop, load
 from fpt_ros.loop.run import Run, describe
 from fpt_ros.parameters import Parameter, Value, resolve
-from fpt_ros.sweep.grid import Axis, Point, Space, Target, is_number
+from fpt_ros.sweep.grid import Point, Space, is_number
 
 COMPLETE, DIVERGED, INVALID, FAILED = "complete", "diverged", "invalid", "failed"
 """What can become of a run: ``invalid`` is one whose parameters do not go together."""
@@ -234,9 +234,7 @@ def _ground(job: Job, point: Point, experiment: Experiment) -> Ground:
         for near in _neighbours(value):
             setting = f"{key[0]}.{key[1]}={json.dumps(near)}"
             try:
-                other = load(
-                    job.name, job.variant, [*settings(job, point), setting], job.duration
-                )
+                other = load(job.name, job.variant, [*settings(job, point), setting], job.duration)
             except BadInput:
                 continue
             found = _differences(key[1], experiment, other)
@@ -273,6 +271,3 @@ def _differences(
         elif differing:
             return None
     return found
-
-
-__all__ = ["Axis", "Job", "Row", "Target", "metrics_of", "run_chunk", "run_one", "simulate"]

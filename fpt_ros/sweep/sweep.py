@@ -7,7 +7,7 @@ from collections import deque
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from concurrent.futures import FIRST_COMPLETED, Future, wait
 from dataclasses import dataclass, replace
-from itertools import islice
+from itertools import islice, product
 from pathlib import Path
 from typing import Any, cast
 
@@ -34,6 +34,9 @@ TRIES = 4
 
 BATCH = 4096
 """Rows that are turned into a table at a time."""
+
+COMBINATIONS = 64
+"""Combinations of words that are looked at for one that has all parameters."""
 
 PER_COORDINATE = ("initial_position", "initial_velocity")
 """Lists that are zero for all coordinates where they are empty."""
@@ -87,13 +90,10 @@ def define(
     _check_distinct(axes)
     if name.endswith((".yaml", ".yml")) or "/" in name:
         name = str(Path(name).absolute())
-    words = [
-        f"{axis.target}={json.dumps(axis.choices[0])}"
-        for axis in axes
-        if not axis.numeric and axis.target.index is None
-    ]
     bare = load(name, variant, settings, duration)
-    experiment = load(name, variant, [*settings, *words], duration) if words else bare
+    experiment = _first_with_all(
+        bare, axes, lambda words: load(name, variant, words, duration), settings
+    )
     lists: dict[str, tuple[float, ...]] = {}
     axes = [_checked(axis, experiment, lists) for axis in axes]
     space = Space(tuple(axes), random or 0, seed if random else 0)
@@ -209,9 +209,7 @@ def write_tables(sweep: Sweep, journal: Journal, directory: Path) -> tuple[Path,
     return paths
 
 
-def _rows(
-    job: Job, journal: Journal, pool: Pool, progress: Progress
-) -> Iterator[list[Row]]:
+def _rows(job: Job, journal: Journal, pool: Pool, progress: Progress) -> Iterator[list[Row]]:
     """Rows as they come; a few chunks for each worker are under way at any time."""
     numbers = journal.missing()
     again: deque[tuple[list[int], int]] = deque()
@@ -264,6 +262,46 @@ def _check_distinct(axes: Sequence[Axis]) -> None:
         others.append(axis.target.index)
 
 
+def _first_with_all(
+    bare: Experiment,
+    axes: Sequence[Axis],
+    make: Callable[[list[str]], Experiment],
+    settings: Sequence[str],
+) -> Experiment:
+    """The experiment with the first words that it is valid with and has all parameters with.
+
+    Where there are none, the first ones, for what is wrong with them.
+    """
+    words = [axis for axis in axes if not axis.numeric and axis.target.index is None]
+    if not words:
+        return bare
+    for axis in words:
+        if axis.target.node in SECTIONS:  # else the loader says it
+            for value in axis.choices:
+                plain = list(value) if isinstance(value, tuple) else value
+                parameter = _known(bare, axis.target.node).get(axis.target.name)
+                if parameter is not None:
+                    parameter.check(plain, axis.target.node)
+    combinations = product(*(axis.choices for axis in words))
+    for values_ in islice(combinations, COMBINATIONS):
+        own = [f"{a.target}={json.dumps(v)}" for a, v in zip(words, values_, strict=True)]
+        try:
+            found = make([*settings, *own])
+        except BadInput:
+            continue
+        if all(
+            axis.target.name in _known(found, axis.target.node)
+            for axis in axes
+            if axis.target.node in SECTIONS
+        ):
+            return found
+    return make([*settings, *(f"{a.target}={json.dumps(a.choices[0])}" for a in words)])
+
+
+def _known(experiment: Experiment, node: str) -> dict[str, Parameter]:
+    return {each.name: each for each in SECTIONS[node](experiment.nodes[node])}
+
+
 def parameter_of(experiment: Experiment, node: str, name: str) -> Parameter:
     """The definition of a parameter.
 
@@ -272,15 +310,13 @@ def parameter_of(experiment: Experiment, node: str, name: str) -> Parameter:
     """
     if node not in SECTIONS:
         raise BadInput(f"there is no node '{node}': there are {', '.join(SECTIONS)}")
-    known = {each.name: each for each in SECTIONS[node](experiment.nodes[node])}
+    known = _known(experiment, node)
     if name not in known:
         raise BadInput(f"{node} has no parameter '{name}': it has {', '.join(sorted(known))}")
     return known[name]
 
 
-def _checked(
-    axis: Axis, experiment: Experiment, lists: dict[str, tuple[float, ...]]
-) -> Axis:
+def _checked(axis: Axis, experiment: Experiment, lists: dict[str, tuple[float, ...]]) -> Axis:
     """The axis with the type of its parameter; its values are valid each by itself."""
     target = axis.target
     parameter = parameter_of(experiment, target.node, target.name)

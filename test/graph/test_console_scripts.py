@@ -53,7 +53,11 @@ def test_five_console_scripts_and_a_recorder(tmp_path, namespace):
         ("fpt_deformer", ["-p", "transformation:=foo"], "'foo' is none of the transformations: "),
         ("fpt_deformer", ["-p", "A:=1"], "fpt_deformer.A: a value of the wrong type"),
         ("fpt_deformer", ["-p", "K:=-0.5"], "fpt_deformer.K: the value given is not valid"),
-        ("plant_simulator", ["-p", "plant:=foo"], "'foo' is none of the plants: cart_beam_hamper, "),
+        (
+            "plant_simulator",
+            ["-p", "plant:=foo"],
+            "'foo' is none of the plants: cart_beam_hamper, ",
+        ),
         ("plant_simulator", ["-p", "dt:=-0.5"], "plant_simulator.dt: the value given is not valid"),
         ("denoiser", ["-p", "method:=foo"], "'foo' is none of the filters: "),
         ("recorder", ["-p", "directory:=/proc/bag"], "/proc/bag"),

@@ -1,6 +1,5 @@
 """The modified tuning (2.11): only what is known is corrected."""
 
-
 import numpy as np
 import pytest
 from hypothesis import assume, given, settings

@@ -73,8 +73,8 @@ def _two_fixed_points(runs: Runs) -> Verdict:
             "18th iterate from 0": f"{x:.10f}",
         },
         "There are two, one attractive and one repulsive. Only if x* is computed to the end: the "
-        f"printed {PRINTED} is the 18th iterate, an iteration that was stopped too early, and with "
-        "it G has no fixed point at all.",
+        f"printed {PRINTED} is the 18th iterate, an iteration that was stopped too early, and "
+        "with it G has no fixed point at all.",
     )
 
 
@@ -185,8 +185,8 @@ def _precursor(runs: Runs) -> Verdict:
         },
         because(
             held,
-            "h changes its sign in every iteration and converges slowly, just below the limit "
-            "A = -2/F'(x*) = -3.161.",
+            "h changes its sign in every iteration and converges slowly, just below the limit A "
+            "= -2/F'(x*) = -3.161.",
         ),
     )
 
@@ -209,8 +209,8 @@ def _bounded_chaos(runs: Runs) -> Verdict:
         },
         because(
             held,
-            "Bounded, and chaotic: the Lyapunov exponent is positive. From A = -6.363 on it is not "
-            "bounded any more, as the orbit leaves the domain of atanh.",
+            "Bounded, and chaotic: the Lyapunov exponent is positive. From A = -6.363 on it is "
+            "not bounded any more, as the orbit leaves the domain of atanh.",
         ),
     )
 
@@ -250,9 +250,8 @@ BARE = (
     Claim(
         "3.1.1",
         "3.1-3.3",
-        "A shifted sigmoid generates a repulsive and an attractive fixed point; for tanh, K = 0.5 "
-        "and "
-        "D = 0.6 the attractive one is x* = 0.7114269142.",
+        "A shifted sigmoid generates a repulsive and an attractive fixed point; for tanh, K = "
+        "0.5 and D = 0.6 the attractive one is x* = 0.7114269142.",
         {},
         _two_fixed_points,
         (Picture("3.1-3.3", "Generation of the fixed points", fixed_point_figure),),
@@ -320,9 +319,8 @@ def _relaxes(runs: Runs) -> Verdict:
         {f"v, rms error, {key}": value for key, value in found.items()}
         | {f"|error| stays below 0.05 from [s], {key}": value for key, value in after.items()},
         f"The settled error is {ratio:.3g} times smaller. With w from an observer of the "
-        "approximate "
-        "parameters instead of a measurement (the thesis does not say which it had) it is "
-        f"{found['nonadaptive'] / found['adaptive, observer']:.3g} times smaller.",
+        "approximate parameters instead of a measurement (the thesis does not say which it had) "
+        f"it is {found['nonadaptive'] / found['adaptive, observer']:.3g} times smaller.",
     )
 
 
@@ -401,9 +399,8 @@ NEURON_CLAIMS = (
     Claim(
         "3.1.2",
         "3.12",
-        "Due to the deformation desired and realised derivative of v remain in close vicinity; in "
-        "the "
-        "non-adaptive case they differ significantly.",
+        "Due to the deformation desired and realised derivative of v remain in close vicinity; "
+        "in the non-adaptive case they differ significantly.",
         NEURONS,
         follows("adaptive", "nonadaptive", 5.0),
         (Picture("3.12", "Derivatives of v", draw.responses("nonadaptive", "adaptive")),),
@@ -525,8 +522,8 @@ def _linear_condition(runs: Runs) -> Verdict:
                 A for A in SLOW if float(sizes(runs[f"from 0, A = {A:g}"])[-1]) < 1e-6
             ),
         },
-        "Only if the iteration starts near the solution: it is a condition of the linearised map. "
-        "From r = 0 the iteration ends in a cycle of two before that bound.",
+        "Only if the iteration starts near the solution: it is a condition of the linearised "
+        "map. From r = 0 the iteration ends in a cycle of two before that bound.",
         Table(("A", "(3.14)", "started 1e-3 away", "started at 0"), tuple(rows)),
     )
 
@@ -547,8 +544,7 @@ MIMO_CLAIMS = (
         "3.2.1",
         "3.20",
         "The extension along the direction of the response error converges to the desired values "
-        "for "
-        "a coupled affine system, |A| = 0.20 and |A| = 0.27425.",
+        "for a coupled affine system, |A| = 0.20 and |A| = 0.27425.",
         {"A = -0.20": Setup(MIMO), "A = -0.27425": Setup(MIMO, "fast")},
         _negative_gain,
         (
@@ -640,12 +636,9 @@ def _threshold(runs: Runs) -> Verdict:
             "scanned A beyond it that are quiet again": float(len(islands)),
         },
         "Only if the nominal trajectory is the thesis's own, which is not printed; with this one "
-        "strong "
-        f"chattering begins just as suddenly, at {loud:g}. From -2.947 to -4.66 quiet tracking "
-        "and a "
-        "cycle of two exist side by side, and the transient decides which of them comes: that is "
-        "why "
-        "some A beyond the onset are quiet again.",
+        f"strong chattering begins just as suddenly, at {loud:g}. From -2.947 to -4.66 quiet "
+        "tracking and a cycle of two exist side by side, and the transient decides which of them "
+        "comes: that is why some A beyond the onset are quiet again.",
     )
 
 
@@ -706,8 +699,8 @@ def _sudden(runs: Runs) -> Verdict:
         },
         f"Within 0.01 of A the chatter grows {jump['SGFPT']:.3g} times, and no A shows precursor "
         "oscillations without it: the loss of stability is hard. RFPT in its place (Kc = -100, "
-        "tried here; the thesis refers to [43]) loses it softly: with "
-        f"{warned['RFPT']} of the gains r already alternates while there is hardly any chatter.",
+        f"tried here; the thesis refers to [43]) loses it softly: with {warned['RFPT']} of the "
+        "gains r already alternates while there is hardly any chatter.",
     )
 
 
@@ -771,8 +764,7 @@ def _wide_range(runs: Runs) -> Verdict:
             "ratio of the two": width,
         },
         f"Over a factor of {width:.3g} of A the tracking is quiet and at least five times as "
-        "precise as "
-        f"without deformation, and more precise with every larger |A|.{remark}",
+        f"precise as without deformation, and more precise with every larger |A|.{remark}",
         Table(("A", "q3, rms error [m]", "q2, rms error [rad]", "chatter"), tuple(rows)),
     )
 
@@ -866,8 +858,7 @@ TORA_CLAIMS = (
         "3.2.2",
         "",
         "Unlike RFPT, where precursor oscillations appear slowly, this transformation turns into "
-        "an "
-        "oscillating regime very quickly.",
+        "an oscillating regime very quickly.",
         {
             **{f"SGFPT, A = {A:g}": _observed(f"A={A:g}") for A in SCAN[3:44]},
             **{
@@ -883,8 +874,8 @@ TORA_CLAIMS = (
     Claim(
         "1.1",
         "",
-        "A model-independent observer detects precursor oscillations of the control signal before "
-        "control is lost [43]; here it also holds A below the onset by itself.",
+        "A model-independent observer detects precursor oscillations of the control signal "
+        "before control is lost [43]; here it also holds A below the onset by itself.",
         {
             "A = -4.2": Setup(TORA, "chatter"),
             "A = -4.2, guarded": Setup(TORA, "guarded"),
@@ -938,12 +929,9 @@ def _any_small_epsilon(runs: Runs) -> Verdict:
             "larger start error, fixed A = -0.1: q2, rms error [rad]": settled_rms(fixed, "q2"),
         },
         "Only if epsilon is chosen so that W / epsilon stays below the limit of 4.66, such as "
-        "0.05: "
-        "once ||h|| is small, epsilon alone decides how large |A| becomes, and a small one makes "
-        "it "
-        "burst. And as |A| ||h|| is held at W, a large initial error is unlearned too slowly: the "
-        "run "
-        "with an amplitude of 1 rad is lost, where a fixed A = -0.1 works.",
+        "0.05: once ||h|| is small, epsilon alone decides how large |A| becomes, and a small one "
+        "makes it burst. And as |A| ||h|| is held at W, a large initial error is unlearned too "
+        "slowly: the run with an amplitude of 1 rad is lost, where a fixed A = -0.1 works.",
         Table(("run", "A, settled", "chatter", "q3, rms error [m]"), tuple(rows)),
     )
 
@@ -972,8 +960,8 @@ AUTO_CLAIMS = (
     Claim(
         "3.3.2",
         "3.28-3.30",
-        "With the calculated A the tracking is accurate, and clearly better than the non-adaptive "
-        "one.",
+        "With the calculated A the tracking is accurate, and clearly better than the "
+        "non-adaptive one.",
         AUTO,
         precise("calculated A", "nonadaptive", 20.0, "", ("A = -0.1",)),
         (
@@ -1040,8 +1028,8 @@ AUTO_CLAIMS = (
     Claim(
         "3.4.1",
         "3.27",
-        "A can be set within a wide range; increasing |A| from a small value considerably improves "
-        "the precision (substatement I).",
+        "A can be set within a wide range; increasing |A| from a small value considerably "
+        "improves the precision (substatement I).",
         {
             "nonadaptive": Setup(TORA, "nonadaptive"),
             **{f"A = {A:g}": Setup(TORA, settings=(f"fpt_deformer.A={A:g}",)) for A in RANGE},

@@ -108,10 +108,9 @@ def _time_sharing(runs: Runs) -> Verdict:
         measured,
         "Only if the nominal swing is near the natural frequency (2.11 rad/s), where it is nearly "
         f"compatible with q2 = 0: the errors are then {ratios[0]:.3g} (q1) and {ratios[1]:.3g} "
-        "(q2) "
-        "times smaller than non-adaptive. With 2.0 rad/s instead of 2.1 the error of q2 is "
-        f"{times(near, far)}, "
-        "with adaptation or without: no time sharing makes the two motions compatible."
+        "(q2) times smaller than non-adaptive. With 2.0 rad/s instead of 2.1 the error of q2 is "
+        f"{times(near, far)}, with adaptation or without: no time sharing makes the two motions "
+        "compatible."
         if fails
         else f"The errors are {ratios[0]:.3g} (q1) and {ratios[1]:.3g} (q2) times smaller.",
     )
@@ -162,8 +161,7 @@ SWING_CLAIMS = (
         "4.1.1",
         "",
         "The stretched sigmoid overcomes the limitation that the shifted one is not defined for "
-        "every "
-        "starting point.",
+        "every starting point.",
         {
             "shifted, no guard": Setup(
                 "tora", settings=("fpt_deformer.A=-1", "fpt_deformer.guard=false")
@@ -177,8 +175,7 @@ SWING_CLAIMS = (
         "4.1.2",
         "4.3-4.4",
         "Time sharing distributes the error between two coordinates that one torque drives, and "
-        "the "
-        "adaptive control tracks better.",
+        "the adaptive control tracks better.",
         {
             **SWINGS,
             "adaptive, 2.0 rad/s": Setup(
@@ -198,8 +195,8 @@ SWING_CLAIMS = (
     Claim(
         "4.1.2",
         "4.5-4.6",
-        "Without adaptivity desired and realised second derivatives seriously differ; with it the "
-        "realised one quickly converges to the desired one in each time slot.",
+        "Without adaptivity desired and realised second derivatives seriously differ; with it "
+        "the realised one quickly converges to the desired one in each time slot.",
         SWINGS,
         _slot_convergence,
         (
@@ -263,11 +260,10 @@ def _three_readings(runs: Runs) -> Verdict:
         (ONLY_IF if loud else YES) if quiet and unharmed else NO,
         {f"chatter, {key} [rad/s²]": size[key] for key in READINGS},
         "Only if (4.7) is taken as printed, with the factor |q2| that shrinks the gain of the "
-        "loop, and "
-        "the motion stays within |q2| < 0.51: the program listing and (4.6) turn the same A = -10 "
-        "into "
-        "a regular cycle of two, as their limit is about 5.1, and so does (4.7) beside the upright "
-        "position, where |q2| reaches 0.7. The tracking is unharmed in all of them.",
+        "loop, and the motion stays within |q2| < 0.51: the program listing and (4.6) turn the "
+        "same A = -10 into a regular cycle of two, as their limit is about 5.1, and so does "
+        "(4.7) beside the upright position, where |q2| reaches 0.7. The tracking is unharmed in "
+        "all of them.",
         Table(
             (
                 "law of the pivot",
@@ -286,8 +282,7 @@ KAPITZA_CLAIMS = (
         "4.2.1",
         "4.9-4.11, 4.14-4.15",
         "The adaptive control with the new function F(x) = atanh(tanh(x + D)/2) tracks the "
-        "prescribed "
-        "motion of the pendulum, by moving its pivot vertically.",
+        "prescribed motion of the pendulum, by moving its pivot vertically.",
         {"nonadaptive": Setup(KAPITZA, "nonadaptive"), "adaptive": Setup(KAPITZA)},
         _pendulum_tracks,
         (
@@ -354,8 +349,7 @@ def _affine_model(runs: Runs) -> Verdict:
         verdict.status,
         verdict.measured,
         f"{verdict.reason} The model errors do corrupt the non-adaptive tracking: a constant in "
-        "the "
-        "place of all forces is enough once the response is deformed.",
+        "the place of all forces is enough once the response is deformed.",
     )
 
 
@@ -380,14 +374,18 @@ def _tuned_weights(runs: Runs) -> Verdict:
     bounded = late.max() < 10.0 and chatter(run) < 0.3 * chatter(loud)
     helps = [name for name, is_better in better.items() if is_better]
     status = YES if len(helps) == 2 else ONLY_IF if helps else NO
-    names = " and ".join(helps) or "neither"
+    part = {
+        YES: "Both coordinates become more precise",
+        ONLY_IF: f"Only if {' and '.join(helps)} is what counts, which becomes more precise; the "
+        "other does not",
+        NO: "Neither coordinate becomes more precise",
+    }[status]
     return Verdict(
         status if bounded else NO,
         measured,
-        f"The weights saw about the limit of {LIMIT:.2f} of the first row without persistent "
-        "chatter, "
-        f"as the buffer turns negative there. More precise than with weights of one: {names}; "
-        f"chatter {times(chatter(plain), chatter(run))}.",
+        f"{part} (against weights of one; chatter {times(chatter(plain), chatter(run))}). As the "
+        f"buffer turns negative there, the weights saw about the limit of {LIMIT:.2f} of the "
+        "first row, without the persistent chatter of weights of 8.",
     )
 
 
@@ -480,10 +478,9 @@ def _robust_models(runs: Runs) -> Verdict:
             / adaptive["fully fuzzy", "q1"],
         },
         f"With every model the deformation makes the error at least {min(ratios):.3g} times "
-        "smaller. "
-        "The fuzzy sine alone gains nothing (non-adaptive "
-        f"{times(plain['affine', 'q1'], plain['fuzzy sine', 'q1'])}); "
-        f"the fully fuzzy model is {gain:.3g} times as precise without deformation.",
+        "smaller. The fuzzy sine alone gains nothing (non-adaptive "
+        f"{times(plain['affine', 'q1'], plain['fuzzy sine', 'q1'])}); the fully fuzzy model is "
+        f"{gain:.3g} times as precise without deformation.",
         Table(("model", "", "non-adaptive [rad]", "adaptive [rad]", ""), tuple(rows)),
     )
 
@@ -507,8 +504,7 @@ SPHERE_CLAIMS = (
         "4.3.3",
         "4.16-4.18",
         "With the affine model the modelling errors corrupt the non-adaptive tracking; the "
-        "adaptive "
-        "controller is precise.",
+        "adaptive controller is precise.",
         _pair("affine"),
         _affine_model,
         _pictures("4.16, 4.17", "4.18", "4.19")[:3],
@@ -517,8 +513,7 @@ SPHERE_CLAIMS = (
         "4.3.2",
         "4.19",
         "The diagonal weights can be tuned to improve the convergence: fluctuations show as a "
-        "negative "
-        "content of a forgetting buffer.",
+        "negative content of a forgetting buffer.",
         {
             "weights 1": Setup(SPHERE, "fixed_weights"),
             "tuned": Setup(SPHERE),
@@ -550,8 +545,8 @@ SPHERE_CLAIMS = (
     Claim(
         "4.3.5",
         "4.25-4.28",
-        "With sine and cosine fuzzy in every term (fully soft computing-based model) the adaptive "
-        "controller is precise.",
+        "With sine and cosine fuzzy in every term (fully soft computing-based model) the "
+        "adaptive controller is precise.",
         _pair("fully fuzzy"),
         precise("adaptive", "nonadaptive", 100.0),
         _pictures("4.25, 4.26", "4.27", "4.28"),
@@ -559,8 +554,8 @@ SPHERE_CLAIMS = (
     Claim(
         "4.4.2",
         "4.16-4.28",
-        "With an affine and with soft computing-based models the method deals with imprecision and "
-        "uncertainty in an efficient and robust way (substatement II).",
+        "With an affine and with soft computing-based models the method deals with imprecision "
+        "and uncertainty in an efficient and robust way (substatement II).",
         model_runs(),
         _robust_models,
     ),

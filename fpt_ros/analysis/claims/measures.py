@@ -155,6 +155,16 @@ def times(before: float, after: float) -> str:
     return "from lost" if math.isinf(before) else ratio_text(after / before)
 
 
+def factor_text(ratio: float) -> str:
+    """How many times: three digits, 7,620 rather than 7.62e+03."""
+    return f"{float(f'{ratio:.3g}'):,.0f}" if 1000.0 <= ratio < 1e6 else f"{ratio:.3g}"
+
+
+def listed(words: Sequence[str]) -> str:
+    """``a, b and c``."""
+    return " and ".join([*[", ".join(words[:-1])] * (len(words) > 1), words[-1]])
+
+
 def because(held: bool, reason: str) -> str:
     """The reason for what was expected, which must not be given where it did not happen."""
     return reason if held else "The numbers do not bear it out."
@@ -183,10 +193,10 @@ def precise(
             for key in (worse, better, *beside):
                 label = f"{name}, rms error, {key}{unit(runs[better], name)}"
                 measured[label] = metrics.finite(settled_rms(runs[key], name))
-        found = ", ".join(f"{ratio:.3g} ({name})" for name, ratio in ratios.items())
+        found = listed([f"{factor_text(ratio)} ({name})" for name, ratio in ratios.items()])
         held = [ratio >= factor for ratio in ratios.values()]
         status = YES if all(held) else ONLY_IF if any(held) else NO
-        reason = f"The settled error is {found} times smaller than of '{worse}'."
+        reason = f"The settled error is {found} times smaller than in '{worse}'."
         return Verdict(status, measured, f"{reason} {remark}".strip())
 
     return judge
@@ -212,8 +222,9 @@ def follows(adaptive: str, nonadaptive: str, factor: float, remark: str = "") ->
             "deformed - desired, rms": added,
         }
         reason = (
-            f"Realised and desired response differ {without / with_it:.3g} times less than without "
-            f"deformation, while the deformed one is {added / with_it:.3g} times as far away."
+            f"Realised and desired response differ {factor_text(without / with_it)} times less than "
+            f"in '{nonadaptive}', while the deformed one is {factor_text(added / with_it)} times as "
+            "far away."
         )
         return Verdict(status, measured, f"{reason} {remark}".strip())
 

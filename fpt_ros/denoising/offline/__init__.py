@@ -31,7 +31,7 @@ class Method:
     Attributes:
         parameters: what can be set, with defaults and ranges.
         estimate: ``estimate(y, present, values)`` -> estimate of the clean signal. ``y``, shape
-            (n,), has no missing samples: where ``present`` is False it holds what healing put there.
+            (n,), has no missing samples: where ``present`` is False it holds what healing put.
         shortest: ``values`` -> how many present samples the method needs.
         detailed: as ``estimate``, but -> (estimate, what was chosen), for methods that choose.
     """

@@ -26,9 +26,18 @@ from functools import partial
 
 import numpy as np
 
-from fpt_ros.denoising.offline import Info, Mask, Method, Signal, mixture, potts, sinusoids, steps
+from fpt_ros.denoising.offline import (
+    Info,
+    Mask,
+    Method,
+    Signal,
+    mixture,
+    potts,
+    sinusoids,
+    steps,
+    whittaker,
+)
 from fpt_ros.denoising.offline import undecimated as wavelets
-from fpt_ros.denoising.offline import whittaker
 from fpt_ros.parameters import Values
 
 PRICE = 3.0
@@ -43,6 +52,9 @@ WIENER = ("sym4", "sym8", "db10")
 WIENER_ROUNDS = 3
 WAVELET_DF = 1.5
 """Degrees of freedom for the choice of a neighbourhood and a threshold, per level."""
+
+STEP_DF = 2.5
+"""Degrees of freedom per segment of ``steps`` beside those of its derivative."""
 
 SHORTEST = 16
 LONGEST, PIECE, OVERLAP = 16384, 8192, 1024
@@ -122,7 +134,7 @@ def library(y: Signal, present: Mask) -> tuple[Judge, list[Member], list[Member]
     mean, df = steps.smooth(y, present, constant.noise, jumps)
     special = [
         _member("potts", constant),
-        Member("steps", mean, df + jumps + 1),
+        Member("steps", mean, df + STEP_DF * (jumps + 1)),
         _member("sinusoids", fits["sinusoids"]),
     ]
     p, s, t = np.median([(f.noise.p, f.noise.s, f.noise.t) for f in fits.values()], axis=0)

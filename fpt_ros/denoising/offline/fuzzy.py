@@ -1,9 +1,9 @@
 """The fuzzy supervisor (thesis section 5.1.1): level, rule, wavelet and window from the signal.
 
-The thesis names four Mamdani experts and their inputs, and gives no rule base: sets and rules here
-are decisions of this project. Inputs: the SNR [dB] of the median-filtered signal, the share e of the
-noise-free energy in the three finest details, the change dv [decades] of detail energy against a sine
-probe, the mean kurtosis of coarse details (jumps), and the level already chosen.
+The thesis names four Mamdani experts and their inputs, and gives no rule base: sets and rules are
+decisions of this project. Inputs: the SNR [dB] of the median-filtered signal, the share e of the
+noise-free energy in the three finest details, the change dv [decades] of detail energy against a
+sine probe, the mean kurtosis of coarse details (jumps), and the level already chosen.
 
 Measured, its choice of level, rule and wavelet does not beat HeurSure with 4 levels, and dv
 saturates: the probe as described carries no information. ``auto`` chooses by risk instead.
@@ -141,7 +141,7 @@ def _estimate(y: Signal, present: Mask, values: Values) -> Signal:
 PARAMETERS = (
     Parameter(
         "shrinkage",
-        "threshold: the chosen rule, wavelet and level; improved: robust loess of the chosen window",
+        "threshold: the chosen rule, wavelet and level; improved: loess of the chosen window",
         "threshold",
         choices=("threshold", "improved"),
     ),

@@ -1,9 +1,9 @@
 """Improved denoising (thesis 5.1.2): DWT, robust loess on every band, inverse DWT.
 
 The orthogonal DWT of one level keeps white noise white and an impulse an outlier of a few
-coefficients, which the bisquare weights of :mod:`loess` reject. The window is the one parameter that
-matters: 61 approximation coefficients suit slow signals, 31 and less fast ones; narrow peaks are
-rejected as outliers whatever it is.
+coefficients, which the bisquare weights of :mod:`loess` reject. The window is the one parameter
+that matters: 61 approximation coefficients suit slow signals, 31 and less fast ones; narrow peaks
+are rejected as outliers whatever it is.
 
 Corrections: "6.) repeat step 1" would redo the DWT: step 2 is repeated with the weights w delta.
 The degree, "linear or quadratic", has to be quadratic (17.2 against 13.2 dB on sines). A smooth

@@ -6,7 +6,7 @@ a polynomial in u of degree 1 or 2, the estimate is its value at u = 0. Robust p
 
     s = median |r|,    delta = (1 - (r / 6s)^2)^2 for |r| < 6s, else 0
 
-and the fit is repeated with K delta. The + 0.5 keeps the end points of the window in use; without it
+and the fit is repeated with K delta. The + 0.5 keeps the window's end points in use; without it
 the result is that of scikit-misc's loess (``surface="direct"``), which offers no such choice, and
 statsmodels' lowess is linear only: hence a loess of our own.
 

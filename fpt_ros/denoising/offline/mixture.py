@@ -41,7 +41,7 @@ class Noise:
     t: float
 
     def _logits(self, r: Signal, present: Mask) -> tuple[Signal, Signal]:
-        """log of P(impulse) / P(none) for each residual alone, and by how much neighbours lower it.
+        """Log of P(impulse) / P(none) for each residual, and by how much its neighbours lowered it.
 
         Three mean-field rounds: more change nothing that counts.
         """

@@ -18,8 +18,9 @@ from fpt_ros.denoising.offline import Signal
 
 PENALTY = 2.5
 LEVELS = 300
-DF = 3.0
-"""Degrees of freedom of a segment: its level, and the place of its end counted as two."""
+DF = 4.5
+"""Degrees of freedom of a segment: its level, and 3.5 for the search of its end: fewer, and smooth
+signals pass for stairs."""
 
 
 @njit(cache=True)
@@ -68,7 +69,7 @@ def _pelt(z: Signal, penalty: float) -> NDArray[np.int64]:
 
 @njit(cache=True)
 def _viterbi(y: Signal, levels: Signal, penalty: float, cap: float) -> Signal:
-    """The piecewise constant path on ``levels`` of least sum of min(r^2, cap) + penalty per jump."""
+    """The path on ``levels`` of least sum of min(r^2, cap) plus ``penalty`` per jump."""
     n, m = len(y), len(levels)
     cost = np.zeros(m)
     came = np.empty((n, m), dtype=np.int32)

@@ -87,7 +87,8 @@ def fit(
         most: tones at most.
     """
     n = len(z)
-    z = np.ascontiguousarray(z)
+    size = 2.0 ** math.frexp(float(np.std(z)))[1]  # the columns of _fit are of order 1
+    z = np.ascontiguousarray(z) / size
     tones = omega.copy()
     f = _fit(z, tones, 2, True) if len(tones) else np.full(n, z.mean())
     rss = float(np.sum((z - f) ** 2))
@@ -95,15 +96,15 @@ def fit(
         more = np.append(tones, _peak(z - f))
         g = _fit(z, more, STEPS, True)
         lower = float(np.sum((z - g) ** 2))
-        if not 0.0 < lower or n * math.log(rss / lower) < BIC * math.log(n):
+        if lower <= 0.0 or n * math.log(rss / lower) < BIC * math.log(n):
             break
         tones, f, rss = more, g, lower
     if len(tones):
         without = tones.copy()
         g = _fit(z, without, 2, False)
         if n * math.log(float(np.sum((z - g) ** 2)) / max(rss, 1e-300)) < math.log(n):
-            return g, without
-    return f, tones
+            return size * g, without
+    return size * f, tones
 
 
 @dataclass

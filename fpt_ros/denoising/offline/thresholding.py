@@ -3,8 +3,8 @@
 DWT, soft threshold of the details, inverse DWT; PyWavelets does the transforms. A rule gives the
 threshold nu of coefficients x that have been divided by the noise's sigma.
 
-Misprints corrected: y_ij = omega_ij eps_i (line 1322) should be omega = W y = W f + W eps, since the
-noise is additive; "set their value to the threshold level" is neither hard nor soft: soft is
+Misprints corrected: y_ij = omega_ij eps_i (line 1322) should be omega = W y = W f + W eps, since
+the noise is additive; "set their value to the threshold level" is neither hard nor soft: soft is
 sign(x) max(|x| - nu, 0). sigma_MAD = median(|d_1|) / 0.6745 of the FINEST detail: the print lacks
 the absolute value, without which the median of any symmetric band is about 0.
 """

@@ -1,15 +1,15 @@
 """Undecimated (translation invariant) wavelet with neighbour shrinkage: the method for white noise.
 
-The mean over all shifts of the orthogonal DWT, done in the Fourier domain of the signal reflected to
-2n samples. Beyond the thesis: its rules threshold single coefficients of one shift. Here, in level
-j, with S the sum of squares over the 2h+1 neighbours at stride 2^j (the same decimated basis, hence
-uncorrelated noise), L = 2h+1 and n_j = n / 2^j::
+The mean over all shifts of the orthogonal DWT, done in the Fourier domain of the signal reflected
+to 2n samples. Beyond the thesis: its rules threshold single coefficients of one shift. In level j
+here, with S the sum of squares over the 2h+1 neighbours at stride 2^j (the same decimated basis,
+hence uncorrelated noise), L = 2h+1 and n_j = n / 2^j::
 
     x (1 - lambda/S)+,    lambda = c sigma^2 (L + 2 sqrt(L ln n_j) + 2 ln n_j)
 
 h and c are those of the least exact Stein risk of the level: with g = x_hat - x the risk is
-sum(g^2 + 2 sigma^2 dg/dx) + const, where dx_hat/dx = 1 - lambda/S + 2 lambda x^2/S^2 for S > lambda,
-else 0.
+sum(g^2 + 2 sigma^2 dg/dx) + const, where dx_hat/dx = 1 - lambda/S + 2 lambda x^2/S^2 for
+S > lambda, else 0.
 """
 
 import math

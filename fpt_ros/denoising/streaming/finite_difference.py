@@ -1,4 +1,4 @@
-"""Finite differences of the position: what there is where only positions are measured (the raw loop).
+"""Finite differences of the position: the raw loop where only positions are measured.
 
 Velocity and acceleration are first and second backward differences; the noise of the acceleration
 is sqrt(6) sigma / dt^2.
