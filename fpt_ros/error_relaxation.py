@@ -1,8 +1,8 @@
 """Kinematic prescription of how the tracking error decays.
 
 (d/dt + Lambda)^n of the tracking error e = q^N - q, or of its integral, is to vanish; solved for
-the highest derivative it gives the desired response. Purely kinematic: no model, no force. Beside it
-stands the combined error s = (d/dt + Lambda)^(n-1) of the same, of which adaptive laws make use
+the highest derivative it gives the desired response. Purely kinematic: no model, no force. Beside
+it stands the combined error s = (d/dt + Lambda)^(n-1) of the same, of which adaptive laws make use
 (thesis, section 2.4).
 """
 

@@ -171,5 +171,6 @@ def _compare(source: "Source", json: bool) -> None:
     screen.print(table)
     screen.print(
         "robust: median size of the residual / 0.6745. The residual of a good estimate is the "
-        "noise: both near sigma where there are no impulses. roughness: rms of the second difference."
+        "noise: both near sigma where there are no impulses. "
+        "roughness: rms of the second difference."
     )

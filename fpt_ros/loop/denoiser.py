@@ -36,7 +36,7 @@ def synchronise(
     out_v: MutableVector,
     out: MutableVector,
 ) -> None:
-    """The deformed response seen through the filter: its response to the motion that r would have caused.
+    """The deformed response r as the filter shows it: filtered is the motion that r would cause.
 
     ``motion``: position and velocity of that motion, n each, by explicit Euler as the plant's;
     ``state``: that of a second filter of the same kind, which is shown it. Exact for filters that

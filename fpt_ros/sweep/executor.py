@@ -1,5 +1,6 @@
 """Where the runs are made: processes of this machine, or a dask cluster."""
 
+import asyncio
 import logging
 import multiprocessing
 import os
@@ -111,9 +112,10 @@ class ClusterPool(Pool):
             import distributed
         except ImportError as error:
             raise BadInput("--scheduler takes dask: pip install 'fpt_ros[cluster]'") from error
-        client: Any = distributed.Client  # dask has no types
         logging.getLogger("distributed").setLevel(logging.CRITICAL)
+        client: Any = distributed.Client  # dask has no types
         try:
+            asyncio.run(_call(address))
             self._client: Any = client(address, timeout=CONNECT, set_as_default=False)
         except Exception as error:  # a dozen kinds, from a bad name to a foreign protocol
             raise BadInput(
@@ -139,6 +141,15 @@ class ClusterPool(Pool):
             self.executor.shutdown(wait=False)
         with suppress(Exception):
             self._client.close(timeout=5)
+
+
+async def _call(address: str) -> None:
+    """Whether anything answers: a client that finds nothing leaves threads and tracebacks."""
+    from distributed.core import connect
+
+    call: Any = connect
+    comm = await call(address, timeout=CONNECT)
+    comm.abort()
 
 
 def pool(scheduler: str | None, workers: int | None) -> Pool:

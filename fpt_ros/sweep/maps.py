@@ -206,11 +206,25 @@ def _heat(table: Table, names: Sequence[str], shown: Sequence[str], basin: bool)
     when = basin and not np.isnan(table["diverged_at"].astype(np.float64)).all()
     picture, panels = _grid(len(shown) + when, 5.0)
     for panel, metric in zip(panels, shown, strict=False):
-        _paint(panel, table, names, _good(table, metric), f"{metric} (grey: not complete)", True)
+        _paint(
+            panel,
+            table,
+            names,
+            _good(table, metric),
+            metric + _grey(table, _good(table, metric)),
+            True,
+        )
     if when:
         at = table["diverged_at"].astype(np.float64)
         _paint(panels[-1], table, names, at, "time of divergence [s] (grey: settled)", False)
     return picture
+
+
+def _grey(table: Table, z: Array) -> str:
+    """What the grey of a map stands for."""
+    if (table["outcome"] != COMPLETE).any():
+        return " (grey: not complete)"
+    return " (grey: the run is too short for it)" if np.isnan(z).any() else ""
 
 
 def _paint(

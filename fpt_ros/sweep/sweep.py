@@ -276,12 +276,15 @@ def _first_with_all(
     if not words:
         return bare
     for axis in words:
-        if axis.target.node in SECTIONS:  # else the loader says it
-            for value in axis.choices:
-                plain = list(value) if isinstance(value, tuple) else value
-                parameter = _known(bare, axis.target.node).get(axis.target.name)
-                if parameter is not None:
-                    parameter.check(plain, axis.target.node)
+        node, name = axis.target.node, axis.target.name
+        if node not in SECTIONS:
+            continue  # the loader says it
+        for value in axis.choices:
+            plain = list(value) if isinstance(value, tuple) else value
+            known = SECTIONS[node]({**bare.nodes[node], name: plain})  # names of laws are checked
+            for parameter in known:
+                if parameter.name == name:
+                    parameter.check(plain, node)
     combinations = product(*(axis.choices for axis in words))
     for values_ in islice(combinations, COMBINATIONS):
         own = [f"{a.target}={json.dumps(v)}" for a, v in zip(words, values_, strict=True)]

@@ -1,6 +1,8 @@
 """The search for good parameters, under limits on other quantities of the run."""
 
 import math
+import os
+import warnings
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -153,18 +155,9 @@ def search(task: Task, trials: int, seed: int, progress: Callable[[int, float], 
     import optuna
 
     optuna.logging.set_verbosity(optuna.logging.ERROR)
-    bounds = task.limits
-
-    def excesses(trial: "optuna.trial.FrozenTrial") -> Sequence[float]:
-        return cast("Sequence[float]", trial.user_attrs["excess"])
-
-    import warnings
-
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", optuna.exceptions.ExperimentalWarning)
-        sampler = optuna.samplers.TPESampler(
-            seed=seed, multivariate=True, n_startup_trials=STARTUP, constraints_func=excesses
-        )
+        sampler = optuna.samplers.TPESampler(seed=seed, multivariate=True, n_startup_trials=STARTUP)
     study = optuna.create_study(sampler=sampler)
     present = {str(knob.target): knob.present for knob in task.knobs}
     inside = all(knob.low <= knob.present <= knob.high for knob in task.knobs)
@@ -177,10 +170,11 @@ def search(task: Task, trials: int, seed: int, progress: Callable[[int, float], 
         drawn = tuple(knob.suggest(trial) for knob in task.knobs)
         result = _result(task, drawn)
         score = _score(task, result)
-        excess = [_excess(result, name, bound) for name, bound in bounds.items()]
-        trial.set_user_attr("excess", excess or [0.0])
+        excess = {name: _excess(result, name, top) for name, top in task.limits.items()}
+        for name, value in excess.items():
+            trial.set_constraint(name, value)
         study.tell(trial, score)
-        worst = max(excess, default=0.0)
+        worst = max(excess.values(), default=0.0)
         if _complete(result):
             nearest = min(nearest, worst)
             if worst <= 0.0 and score < best:
@@ -230,8 +224,6 @@ def check_overlay(path: Path) -> None:
         BadInput: its folder does not exist or cannot be written, or a file is there that
             ``fpt tune`` has not made.
     """
-    import os
-
     folder = path.absolute().parent
     if not folder.is_dir() or not os.access(folder, os.W_OK):
         raise BadInput(f"--out {path} cannot be written: give a folder that exists and is yours")

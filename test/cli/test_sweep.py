@@ -24,7 +24,18 @@ def begin(directory, count):
     """Start a sweep in a session of its own, and wait until some rows are there."""
     grid = [part.format(count) for part in GRID]
     process = subprocess.Popen(
-        [BIN / "fpt", "sweep", "tora", *grid, "--workers", "2", "--out", directory],
+        [
+            BIN / "fpt",
+            "sweep",
+            "tora",
+            *grid,
+            "--duration",
+            "4",
+            "--workers",
+            "2",
+            "--out",
+            directory,
+        ],
         stdout=subprocess.PIPE,
         stderr=subprocess.PIPE,
         text=True,
@@ -40,12 +51,12 @@ def begin(directory, count):
 
 def go_on(directory, count):
     grid = [part.format(count) for part in GRID]
-    return fpt_json("sweep", "tora", *grid, "--out", directory)
+    return fpt_json("sweep", "tora", *grid, "--duration", 4, "--out", directory)
 
 
 @pytest.mark.parametrize("how", [signal.SIGKILL, signal.SIGINT])
 def test_goes_on_where_it_was_ended(tmp_path, how):
-    directory, count = tmp_path / "s", 400
+    directory, count = tmp_path / "s", 300
     process, workers = begin(directory, count)
     os.kill(process.pid, how)
     _, complaint = process.communicate(timeout=60)
@@ -57,7 +68,7 @@ def test_goes_on_where_it_was_ended(tmp_path, how):
     before = journal(directory)
     assert 5 <= len(before) < count
     with (directory / "journal.jsonl").open("ab") as file:
-        file.write(b'[399,-4.0,"comp')  # as if killed within a write
+        file.write(b'[299,-4.0,"comp')  # as if killed within a write
     result = go_on(directory, count)
     after = journal(directory)
     assert after[: len(before)] == before
@@ -74,7 +85,7 @@ def test_tables_and_maps_and_the_same_bits_as_simulate(tmp_path):
     )
     assert (result["runs"], result["made"], result["not_complete"]) == (6, 6, 2)
     table = pandas.read_parquet(directory / "runs.parquet")
-    text = pandas.read_csv(directory / "runs.csv", float_precision="round_trip")
+    text = pandas.read_csv(directory / "runs.csv")
     assert list(text.columns) == list(table.columns)
     for name in table.columns:
         if table[name].dtype == np.float64:

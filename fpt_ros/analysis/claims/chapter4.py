@@ -203,7 +203,7 @@ SWING_CLAIMS = (
             Picture(
                 "4.5, 4.6",
                 "Second derivatives, excerpt about a change of slots",
-                draw.zoomed("nonadaptive", "adaptive"),
+                draw.zoomed("nonadaptive", "adaptive", first=7.0),
                 "Each coordinate has values in its own time slots only.",
             ),
         ),

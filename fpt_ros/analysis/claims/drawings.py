@@ -61,9 +61,13 @@ def responses(*keys: str, first: float | None = None) -> Draw:
     )
 
 
-def zoomed(*keys: str) -> Draw:
-    """The same about the settle time."""
-    return panels(response_figures.responses_zoom, *keys)
+def zoomed(*keys: str, first: float | None = None) -> Draw:
+    """The same about the settle time; ``first`` [s]: of the beginning of the run only."""
+    return panels(
+        response_figures.responses_zoom,
+        *keys,
+        prepare=lambda run: run if first is None else until(run, first),
+    )
 
 
 def forces(*keys: str) -> Draw:

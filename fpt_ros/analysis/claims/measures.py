@@ -222,9 +222,9 @@ def follows(adaptive: str, nonadaptive: str, factor: float, remark: str = "") ->
             "deformed - desired, rms": added,
         }
         reason = (
-            f"Realised and desired response differ {factor_text(without / with_it)} times less than "
-            f"in '{nonadaptive}', while the deformed one is {factor_text(added / with_it)} times as "
-            "far away."
+            f"Realised and desired response differ {factor_text(without / with_it)} times less "
+            f"than in '{nonadaptive}', while the deformed one is {factor_text(added / with_it)} "
+            "times as far away."
         )
         return Verdict(status, measured, f"{reason} {remark}".strip())
 
