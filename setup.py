@@ -41,6 +41,7 @@ setup(
         "numba",
         "PyWavelets",
         "pandas",
+        "scikit-fuzzy",
         "optuna>=5",
         "pyarrow",
         "ruamel.yaml",

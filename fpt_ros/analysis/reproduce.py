@@ -10,9 +10,10 @@ import re
 import shlex
 import signal
 from collections import Counter
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from concurrent.futures import ProcessPoolExecutor, as_completed
 from concurrent.futures.process import BrokenProcessPool
+from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -96,12 +97,12 @@ def judge_all(
     pool = ProcessPoolExecutor(
         min(workers or len(os.sched_getaffinity(0)), len(tasks)),
         multiprocessing.get_context("spawn"),
-        initializer=_start_worker,
     )
     try:
         # the longest first, so that no core waits for it at the end
         order = sorted(tasks, key=lambda task: -_effort(chapters()[task[0]].claims[task[1]]))
-        futures = {pool.submit(outcome_of, *task): task[1] for task in order}
+        with _ignored_interrupts():  # by the workers too, which are started here
+            futures = {pool.submit(outcome_of, *task): task[1] for task in order}
         progress(0)
         for done, future in enumerate(as_completed(futures), 1):
             found[futures[future]] = future.result()
@@ -119,9 +120,14 @@ def judge_all(
     return {name: found[name] for _, name in tasks}
 
 
-def _start_worker() -> None:
-    """Ctrl-C is the parent's affair, which ends the workers."""
-    signal.signal(signal.SIGINT, signal.SIG_IGN)
+@contextmanager
+def _ignored_interrupts() -> Iterator[None]:
+    """Processes that are started meanwhile ignore Ctrl-C: the parent ends them."""
+    before = signal.signal(signal.SIGINT, signal.SIG_IGN)
+    try:
+        yield
+    finally:
+        signal.signal(signal.SIGINT, before)
 
 
 def _effort(claim: Claim) -> int:

@@ -145,7 +145,7 @@ class ClusterPool(Pool):
 
 async def _call(address: str) -> None:
     """Whether anything answers: a client that finds nothing leaves threads and tracebacks."""
-    from distributed.core import connect
+    from distributed.comm import connect
 
     call: Any = connect
     comm = await call(address, timeout=CONNECT)

@@ -80,7 +80,7 @@ def test_goes_on_where_it_was_ended(tmp_path, how):
 def test_tables_and_maps_and_the_same_bits_as_simulate(tmp_path):
     directory = tmp_path / "s"
     result = fpt_json(
-        *("sweep", "tora", "--grid", "fpt_deformer.A=-0.7,-3.3,1", "--duration", 6),
+        *("sweep", "tora", "--grid", "fpt_deformer.A=-0.7,-3.3,1", "--duration", 6, "--workers", 1),
         *("--grid", "trajectory_generator.lambda=5:6:2", "--out", directory),
     )
     assert (result["runs"], result["made"], result["not_complete"]) == (6, 6, 2)
@@ -118,7 +118,7 @@ def test_onset_and_basin(tmp_path):
     assert -3.125 >= quiet > loud >= -4.2
     axes = [f"plant_simulator.initial_position[{i}]=-1.6:1.6:3" for i in (0, 1)]
     result = fpt_json(
-        *("sweep", "tora", "--grid", axes[0], "--grid", axes[1], "--duration", 1),
+        *("sweep", "tora", "--grid", axes[0], "--grid", axes[1], "--duration", 1, "--workers", 1),
         *("--out", tmp_path / "b"),
     )
     table = pandas.read_parquet(tmp_path / "b" / "runs.parquet")
@@ -155,7 +155,7 @@ def test_bad_input_is_one_line(tmp_path, arguments, complaint):
 def test_folders_of_others(tmp_path):
     (tmp_path / "full").mkdir()
     (tmp_path / "full" / "notes").write_text("mine")
-    grid = ["--grid", "fpt_deformer.A=-1:-2:2", "--duration", 0.1]
+    grid = ["--grid", "fpt_deformer.A=-1:-2:2", "--duration", 0.1, "--workers", 1]
     done = fpt("sweep", "tora", *grid, "--out", tmp_path / "full")
     assert (done.returncode, "holds other files" in done.stderr) == (2, True)
     fpt_json("sweep", "tora", *grid, "--out", tmp_path / "s")
