@@ -744,7 +744,10 @@ def _wide_range(runs: Runs) -> Verdict:
         errors[A] = found["q3"]
         if all(x < 0.2 * plain[name] for name, x in found.items()) and chatter(run) < CHATTERS:
             good.append(A)
-        cells = (f"{text(x)} ({times(plain[name], x)})" for name, x in found.items())
+        cells = (
+            f"{text(x)} ({times(plain[name], x)})" if math.isfinite(x) else "lost"
+            for name, x in found.items()
+        )
         rows.append((f"{A:g}", *cells, text(chatter(run))))
     width = good[-1] / good[0] if good else 0.0
     inside = [errors[A] for A in good]

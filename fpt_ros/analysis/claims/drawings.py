@@ -80,7 +80,7 @@ def parameters(*keys: str, names: Sequence[str] = ()) -> Draw:
 
     def only(run: Run) -> Run:
         wanted = names or [n for n in run.topics["tuning"].names if n in coefficients(run)]
-        return with_tuning(thinned(run), wanted, {})
+        return with_tuning(run, wanted, {})
 
     return panels(response_figures.parameters, *keys, prepare=only)
 
