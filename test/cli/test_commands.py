@@ -90,7 +90,22 @@ def test_a_file_of_ones_own(tmp_path):
     assert result["tracking"]["q3"]["rms_settled"] < 1e-4 * 3
 
 
-@pytest.mark.parametrize("command", ["list", "simulate", "run", "report", "info", "demo"])
+@pytest.mark.parametrize(
+    "command",
+    [
+        "list",
+        "simulate",
+        "sweep",
+        "tune",
+        "run",
+        "report",
+        "gain",
+        "denoise",
+        "info",
+        "reproduce",
+        "demo",
+    ],
+)
 def test_help_has_an_example(command):
     done = fpt(command, "--help")
     assert done.returncode == 0

@@ -1,0 +1,84 @@
+"""``fpt denoise``: tables, arrays and recordings in, one more column out."""
+
+import json
+
+import numpy as np
+import pytest
+from command import fpt, fpt_json
+
+
+@pytest.fixture
+def noisy():
+    t = np.arange(256)
+    clean = np.sin(2 * np.pi * t / 64)
+    return clean, clean + 0.1 * np.random.default_rng(3).standard_normal(256)
+
+
+def test_last_column_is_the_estimate_and_missing_samples_are_marked(tmp_path, noisy):
+    clean, y = noisy
+    rows = ["t,y", *(f"{i},{x}" for i, x in enumerate(y))]
+    rows[101] = "100,"
+    (tmp_path / "s.csv").write_text("\n".join(rows))
+    out, plot = tmp_path / "out.csv", tmp_path / "out.png"
+    result = fpt_json("denoise", tmp_path / "s.csv", "--column", "y", "--out", out, "--plot", plot)
+    assert result["healed"] == 1
+    table = np.genfromtxt(out, delimiter=",", names=True)
+    assert table.dtype.names[-1] == "estimate"
+    assert np.flatnonzero(table["healed"]).tolist() == [100]
+    error = np.sqrt(np.mean((table["estimate"] - clean) ** 2))
+    assert error < 0.5 * np.sqrt(np.mean((y - clean) ** 2))
+    assert plot.read_bytes().startswith(b"\x89PNG")
+
+
+def test_arrays(tmp_path, noisy):
+    np.save(tmp_path / "s.npy", noisy[1])
+    result = fpt_json("denoise", tmp_path / "s.npy", "--method", "savgol")
+    assert result["samples"] == 256
+    assert (tmp_path / "s-denoised.csv").is_file()
+
+
+def test_a_field_of_a_recording(tmp_path):
+    bag, out = tmp_path / "bag", tmp_path / "q3.csv"
+    fpt_json("simulate", "tora", "--duration", 1, "--record", bag)
+    topic = ("--topic", "joint_states", "--field", "position[2]")
+    result = fpt_json("denoise", bag, *topic, "--method", "savgol", "--out", out)
+    assert result["samples"] == 1000
+    missing = fpt("denoise", bag, "--topic", "nothing", "--field", "position[2]", "--out", out)
+    assert missing.returncode == 2
+    assert "/joint_states" in missing.stderr
+
+
+def test_compare_runs_all_methods(tmp_path, noisy):
+    np.save(tmp_path / "s.npy", noisy[1])
+    methods = json.loads(fpt("denoise", tmp_path / "s.npy", "--compare", "--json").stdout)[
+        "methods"
+    ]
+    assert {"auto", "heursure", "savgol", "improved", "fuzzy"} <= {m["method"] for m in methods}
+
+
+@pytest.mark.parametrize(
+    ("arguments", "complaint"),
+    [
+        (["--column", "z"], "columns of numbers are t, y"),
+        (["--method", "foo"], "none of the denoisers"),
+        (["--method", "savgol", "--set", "window=10"], "odd"),
+        (["--method", "savgol", "--set", "window=5", "--set", "degree=7"], "degree"),
+        (["--plot", "s.gif"], ".png"),
+    ],
+)
+def test_bad_input_is_one_line_and_writes_nothing(tmp_path, arguments, complaint):
+    (tmp_path / "s.csv").write_text("t,y\n" + "\n".join(f"{i},{i % 7}" for i in range(50)))
+    done = fpt("denoise", "s.csv", *arguments, cwd=tmp_path)
+    assert done.returncode == 2
+    assert len(done.stderr.strip().splitlines()) == 1
+    assert complaint in done.stderr
+    assert [path.name for path in tmp_path.iterdir()] == ["s.csv"]
+
+
+@pytest.mark.parametrize("content", ["", "y\n", "y\n\n\n", "y\ninf\n1\n2\n3\n4\n", "y\n1\n2\n"])
+def test_signals_that_cannot_be_used(tmp_path, content):
+    (tmp_path / "s.csv").write_text(content)
+    done = fpt("denoise", "s.csv", cwd=tmp_path)
+    assert done.returncode == 2
+    assert len(done.stderr.strip().splitlines()) == 1
+    assert [path.name for path in tmp_path.iterdir()] == ["s.csv"]
