@@ -123,7 +123,8 @@ def test_divergence(tmp_path):
     assert done.returncode == 1
     assert done.stderr.splitlines()[-1] == (
         "fpt: plant_simulator: diverged at t = 0.411 s: the position of q1, 1.51003, "
-        "is over its limit of 1.5"
+        "is over its limit of 1.5 in cycle 411 (control is lost: fpt gain shows which "
+        "fpt_deformer.A converges, and of which sign)"
     )
     run = read_run(tmp_path / "bag")
     assert "q1" in run.info["reason"]
