@@ -101,7 +101,7 @@ def judge_all(
     try:
         # the longest first, so that no core waits for it at the end
         order = sorted(tasks, key=lambda task: -_effort(chapters()[task[0]].claims[task[1]]))
-        with _ignored_interrupts():  # by the workers too, which are started here
+        with _held_interrupts():  # by the workers too, which are started here
             futures = {pool.submit(outcome_of, *task): task[1] for task in order}
         progress(0)
         for done, future in enumerate(as_completed(futures), 1):
@@ -121,13 +121,16 @@ def judge_all(
 
 
 @contextmanager
-def _ignored_interrupts() -> Iterator[None]:
-    """Processes that are started meanwhile ignore Ctrl-C: the parent ends them."""
-    before = signal.signal(signal.SIGINT, signal.SIG_IGN)
+def _held_interrupts() -> Iterator[None]:
+    """Processes that are started meanwhile never see Ctrl-C: the parent ends them.
+
+    They inherit the blocked signal. One that comes meanwhile waits, and is not lost.
+    """
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
     try:
         yield
     finally:
-        signal.signal(signal.SIGINT, before)
+        signal.pthread_sigmask(signal.SIG_SETMASK, before)
 
 
 def _effort(claim: Claim) -> int:
