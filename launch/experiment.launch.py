@@ -28,7 +28,7 @@ def start(context):
         LaunchConfiguration(name).perform(context)
         for name in ("experiment", "variant", "record", "namespace")
     )
-    experiment = load(experiment_name, variant)
+    experiment = load(experiment_name, variant).for_graph(realtime=False)
     names = list(STAGES)
     if record:
         experiment = experiment.with_values("plant_simulator", await_recorder=True)

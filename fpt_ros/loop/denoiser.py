@@ -6,7 +6,7 @@ from collections.abc import Callable
 from fpt_ros import registry
 from fpt_ros.denoising.streaming import ORDER
 from fpt_ros.laws import MutableVector, Vector, helper, part
-from fpt_ros.loop.stage import REALTIME, Input, Stage
+from fpt_ros.loop.stage import CYCLE_TIME, REALTIME, Input, Stage
 from fpt_ros.messages.frames import Command, JointStates, StateEstimate
 from fpt_ros.messages.topics import COMMAND, JOINT_STATES, STATE_ESTIMATE
 from fpt_ros.parameters import Parameter, Values, flag, word
@@ -68,7 +68,7 @@ class Denoiser(Stage):
         """Those of the stage and of the filter."""
         method = str(given.get("method", METHOD.default))
         own = registry.streaming_filter(method).parameters
-        return (METHOD, ORDER, SYNCHRONISED, *own, REALTIME)
+        return (METHOD, ORDER, SYNCHRONISED, *own, REALTIME, CYCLE_TIME)
 
     @property
     def inputs(self) -> tuple[Input, ...]:

@@ -15,7 +15,7 @@ from fpt_ros.loop.locate import config_directory
 from fpt_ros.loop.parameter_file import ParameterFile
 from fpt_ros.loop.parameter_tuner import ParameterTuner, in_the_loop
 from fpt_ros.loop.plant_simulator import PlantSimulator
-from fpt_ros.loop.stage import Stage
+from fpt_ros.loop.stage import CYCLE_TIME, Stage
 from fpt_ros.loop.stages import STAGES
 from fpt_ros.loop.trajectory_generator import TrajectoryGenerator
 from fpt_ros.loop.workspace import check_workspace
@@ -84,6 +84,15 @@ class Experiment:
     def with_values(self, node: str, **changes: Value) -> "Experiment":
         """The same experiment with some parameters of a node changed."""
         nodes = {**self.nodes, node: {**self.nodes[node], **changes}}
+        return Experiment(self.name, self.variant, nodes)
+
+    def for_graph(self, realtime: bool) -> "Experiment":
+        """The same experiment, its nodes told what only a graph of them has to know."""
+        nodes = {node: dict(values) for node, values in self.nodes.items()}
+        for values in nodes.values():
+            values["realtime"] = realtime
+            if CYCLE_TIME.name in values:
+                values[CYCLE_TIME.name] = self.nodes[PlantSimulator.name]["dt"]
         return Experiment(self.name, self.variant, nodes)
 
     def write(self, path: Path) -> None:

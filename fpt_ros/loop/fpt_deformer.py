@@ -8,7 +8,7 @@ from fpt_ros.errors import BadInput, Diverged
 from fpt_ros.laws import NOT_CONTROLLED, MutableVector, Vector, helper
 from fpt_ros.loop.approximate_model import model_parameters
 from fpt_ros.loop.denoiser import SYNCHRONISED
-from fpt_ros.loop.stage import REALTIME, Input, Stage, indices
+from fpt_ros.loop.stage import CYCLE_TIME, REALTIME, Input, Stage, indices
 from fpt_ros.loop.tuned import NOTHING, Tuned, tuned_by
 from fpt_ros.messages.frames import Command, Desired, Names, StateEstimate, Tuning
 from fpt_ros.messages.topics import COMMAND, DESIRED, STATE_ESTIMATE
@@ -52,6 +52,7 @@ PARAMETERS = (
     Parameter("await_tuning", "a tuner is in the loop: wait for it", False, live=False),
     Parameter("effort_command", "publish the efforts for a ros2_control controller", False),
     REALTIME,
+    CYCLE_TIME,
 )
 
 

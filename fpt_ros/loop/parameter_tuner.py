@@ -6,7 +6,7 @@ from fpt_ros import registry
 from fpt_ros.errors import BadInput
 from fpt_ros.laws import MutableVector, Vector, helper, part
 from fpt_ros.loop.approximate_model import model_parameters
-from fpt_ros.loop.stage import REALTIME, Input, Stage, indices
+from fpt_ros.loop.stage import CYCLE_TIME, REALTIME, Input, Stage, indices
 from fpt_ros.loop.tuned import FACTOR, PRECURSOR, WEIGHT
 from fpt_ros.messages.frames import SECOND, Command, Desired, Names, StateEstimate, Tuning
 from fpt_ros.messages.topics import COMMAND, DESIRED, STATE_ESTIMATE, TUNING
@@ -21,6 +21,7 @@ PARAMETERS = (
     Parameter("precursor", "watch for oscillations of the deformed response", False, live=False),
     Parameter("precursor_guard", "lower the gain while they are there", False),
     REALTIME,
+    CYCLE_TIME,
 )
 
 TUNE_FROM = Parameter("tune_from", "time at which the tuning starts", 0.0, unit="s", minimum=0.0)

@@ -19,6 +19,16 @@ from fpt_ros.parameters import Parameter, Values, resolve
 REALTIME = Parameter("realtime", "on the wall clock instead of in lockstep", False, live=False)
 """Declared by all nodes: what they wait for depends on it."""
 
+CYCLE_TIME = Parameter(
+    "cycle_time",
+    "length of a cycle in lockstep, by which messages of another run are known; 0: not known",
+    0.0,
+    unit="s",
+    minimum=0.0,
+    live=False,
+)
+"""Declared by the stages that answer; set by what starts the graph, from the plant's ``dt``."""
+
 
 @dataclass(frozen=True)
 class Input:

@@ -7,7 +7,7 @@ from fpt_ros import registry
 from fpt_ros.error_relaxation import RELAXATIONS, Prescription, combined_error
 from fpt_ros.errors import BadInput
 from fpt_ros.laws import MutableVector, Vector, helper, part
-from fpt_ros.loop.stage import REALTIME, Input, Stage, indices
+from fpt_ros.loop.stage import CYCLE_TIME, REALTIME, Input, Stage, indices
 from fpt_ros.messages.frames import SECOND, Desired, Names, StateEstimate
 from fpt_ros.messages.topics import DESIRED, STATE_ESTIMATE
 from fpt_ros.parameters import Parameter, Values, number, numbers, word, words
@@ -34,6 +34,7 @@ PARAMETERS = (
         live=False,
     ),
     REALTIME,
+    CYCLE_TIME,
 )
 
 

@@ -84,10 +84,7 @@ def run(
         RunFailed: a node failed or died; the recording is closed and says why.
         Interrupted: Ctrl-C.
     """
-    for node in (*STAGES, RECORDER):
-        declared = experiment.nodes[node]
-        if "realtime" in declared:
-            experiment = experiment.with_values(node, realtime=realtime)
+    experiment = experiment.for_graph(realtime)
     recorded = record is not None
     experiment = experiment.with_values(PlantSimulator.name, await_recorder=recorded)
     if record is not None:

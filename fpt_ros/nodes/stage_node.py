@@ -83,6 +83,7 @@ class StageNode(ParameterisedNode):
         self._acted = -1
         self._wait_for = tuple(i for i, lag in enumerate(self._lags) if lag == 0)
         self._realtime = bool(self.stage.values.get("realtime", False))
+        self._cycle_time = round(float(self.stage.values.get("cycle_time", 0.0)) * SECOND)
         for i, each in enumerate(inputs):
             self.subscribe_raw(each.topic.name, each.topic.type, LATEST, self._receiver(i))
 
@@ -100,6 +101,8 @@ class StageNode(ParameterisedNode):
             except MalformedMessage as error:
                 self.get_logger().error(f"ignored: {error}", once=True)
                 return
+            if frame.stamp < self._acted and not self._realtime:
+                return  # of a run that has begun later: it must not take the place of ours
             self._latest[index] = frame
             self._try_step()
 
@@ -121,7 +124,9 @@ class StageNode(ParameterisedNode):
                 arguments.append(None)
             else:
                 return
-        if last < 0 and stamp > 0 and not self._realtime:
+        due = last + self._cycle_time if last >= 0 else 0
+        unknown = last >= 0 and not self._cycle_time
+        if not (self._realtime or unknown) and stamp != due:
             raise under_way(stamp)
         self._acted = stamp
         if self._pending:

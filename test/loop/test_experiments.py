@@ -17,7 +17,13 @@ NODES = (
     "fpt_deformer",
     "recorder",
 )
-WITHOUT_TUNER = {"method": "none", "precursor": False, "precursor_guard": False, "realtime": False}
+WITHOUT_TUNER = {
+    "method": "none",
+    "precursor": False,
+    "precursor_guard": False,
+    "realtime": False,
+    "cycle_time": 0.0,
+}
 
 
 def refused(*args, **kwargs):
