@@ -56,6 +56,7 @@ setup(
     extras_require={
         "test": ["pytest"],
         "cluster": ["dask", "distributed"],
+        "peers": ["scikit-image", "statsmodels"],
     },
     zip_safe=False,
     entry_points={
@@ -135,15 +136,20 @@ setup(
             "adaptive_savgol = fpt_ros.denoising.offline.adaptive_savgol:ADAPTIVE_SAVGOL",
             "anytime = fpt_ros.denoising.offline.anytime:ANYTIME",
             "auto = fpt_ros.denoising.offline.auto:AUTO",
+            "bayesshrink = fpt_ros.denoising.offline.peers:BAYESSHRINK",
             "fuzzy = fpt_ros.denoising.offline.fuzzy:FUZZY",
             "heursure = fpt_ros.denoising.offline.heursure:HEURSURE",
             "improved = fpt_ros.denoising.offline.improved:IMPROVED",
+            "lowess = fpt_ros.denoising.offline.peers:LOWESS",
+            "median_savgol = fpt_ros.denoising.offline.peers:MEDIAN_SAVGOL",
             "minimax = fpt_ros.denoising.offline.minimax:MINIMAX",
             "savgol = fpt_ros.denoising.offline.savgol:SAVGOL",
             "savgol_bank = fpt_ros.denoising.offline.savgol_bank:SAVGOL_BANK",
+            "soft_universal = fpt_ros.denoising.offline.peers:SOFT_UNIVERSAL",
             "sureshrink = fpt_ros.denoising.offline.sureshrink:SURESHRINK",
             "undecimated = fpt_ros.denoising.offline.undecimated:UNDECIMATED",
             "universal = fpt_ros.denoising.offline.universal:UNIVERSAL",
+            "visushrink = fpt_ros.denoising.offline.peers:VISUSHRINK",
         ],
     },
 )

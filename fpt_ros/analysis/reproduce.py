@@ -7,7 +7,6 @@ import math
 import multiprocessing
 import os
 import re
-import shlex
 import signal
 from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
@@ -16,6 +15,7 @@ from concurrent.futures.process import BrokenProcessPool
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from matplotlib.backends.backend_agg import FigureCanvasAgg
@@ -24,17 +24,24 @@ from PIL import Image
 
 from fpt_ros import __version__
 from fpt_ros.analysis import pages, style
-from fpt_ros.analysis.claims import STATUSES, Chapter, Claim, Picture, Setup, Verdict, chapters
+from fpt_ros.analysis.claims import (
+    STATUSES,
+    Chapter,
+    Claim,
+    Picture,
+    Setup,
+    Source,
+    Verdict,
+    chapters,
+)
+from fpt_ros.analysis.claims.commands import commands
 from fpt_ros.analysis.tables import number_text
 from fpt_ros.analysis.whole_files import write_whole
 from fpt_ros.errors import BadInput, RunFailed
-from fpt_ros.loop.run import Run, describe
 
 TEMPLATE = "reproduce.html.j2"
 DPI = 110
 COLOURS = 128
-LOOP = 4
-"""Runs that differ in one value are written as one loop of the shell where they are more."""
 
 
 @dataclass(frozen=True)
@@ -101,7 +108,7 @@ def judge_all(
     try:
         # the longest first, so that no core waits for it at the end
         order = sorted(tasks, key=lambda task: -_effort(chapters()[task[0]].claims[task[1]]))
-        with _held_interrupts():  # by the workers too, which are started here
+        with _held_interrupts(), _one_thread_each():  # by the workers too, which are started here
             futures = {pool.submit(outcome_of, *task): task[1] for task in order}
         progress(0)
         for done, future in enumerate(as_completed(futures), 1):
@@ -133,38 +140,42 @@ def _held_interrupts() -> Iterator[None]:
         signal.pthread_sigmask(signal.SIG_SETMASK, before)
 
 
-def _effort(claim: Claim) -> int:
+@contextmanager
+def _one_thread_each() -> Iterator[None]:
+    """Processes that are started meanwhile do their linear algebra on one thread.
+
+    There are as many of them as cores; small systems on more threads only wait for each other.
+    """
+    names = ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS")
+    before = {name: os.environ.get(name) for name in names}
+    os.environ.update(dict.fromkeys(names, "1"))
+    try:
+        yield
+    finally:
+        for name, value in before.items():
+            if value is None:
+                del os.environ[name]
+            else:
+                os.environ[name] = value
+
+
+def _effort(claim: Claim[Any]) -> float:
     """A rough measure of how long a claim takes."""
-    heavy = {"cart_beam_hamper": 6, "swing": 8, "kapitza": 3, "spherical_pendulum": 3}
-    return sum(heavy.get(setup.name, 1) for setup in claim.runs.values()) + 4 * len(claim.pictures)
+    return sum(source.effort for source in claim.runs.values()) + 4.0 * len(claim.pictures)
 
 
 def outcome_of(chapter: int, name: str) -> Outcome:
     """Make the runs of one claim, judge them, and draw its pictures."""
     claim = chapters()[chapter].claims[name]
-    runs = {key: perform(setup, key) for key, setup in claim.runs.items()}
-    endings = {key: run.info["reason"] for key, run in runs.items() if run.info["reason"]}
+    runs = claim.perform()
+    endings = {key: claim.runs[key].ending(result) for key, result in runs.items()}
+    endings = {key: reason for key, reason in endings.items() if reason}
     with style.settings():
         pictures = [_shown(picture, runs) for picture in claim.pictures]
     return Outcome(claim.judge(runs), tuple(p for p in pictures if p is not None), endings)
 
 
-def perform(setup: Setup, key: str) -> Run:
-    """One run in process; ``key`` is what figures call it. One that diverges ends where it does."""
-    from fpt_ros.loop.engine import Engine
-
-    experiment = setup.experiment()
-    engine = Engine(experiment.loop())
-    reason = ""
-    try:
-        engine.run()
-    except RunFailed as error:
-        reason = str(error)
-    info = {**describe(experiment, "in_process", reason), "variant": key}
-    return Run(info, experiment.nodes, engine.topics())
-
-
-def _shown(picture: Picture, runs: Mapping[str, Run]) -> Shown | None:
+def _shown(picture: Picture[Any], runs: Mapping[str, Any]) -> Shown | None:
     drawn = picture.draw(runs)
     if drawn is None:
         return None
@@ -185,42 +196,6 @@ def _png(figure: Figure) -> bytes:
         buffer, format="png", optimize=True
     )
     return buffer.getvalue()
-
-
-def commands(claim: Claim) -> list[str]:
-    """Shell lines that make the runs of a claim; many that differ in one value are a loop."""
-    groups: dict[tuple[str, str], list[Setup]] = {}
-    for setup in claim.runs.values():
-        groups.setdefault((setup.name, setup.variant), []).append(setup)
-    lines: list[str] = []
-    for setups in groups.values():
-        lines += _loop(setups) if len(setups) > LOOP else [setup.command() for setup in setups]
-    return list(dict.fromkeys(lines))
-
-
-def _loop(setups: Sequence[Setup]) -> list[str]:
-    """Setups of one experiment and variant, those that differ in their first setting as loops."""
-    rest: dict[tuple[str, tuple[str, ...], float | None], list[str]] = {}
-    lines = []
-    for setup in setups:
-        if not setup.settings:
-            lines.append(setup.command())
-            continue
-        target, _, value = setup.settings[0].partition("=")
-        rest.setdefault((target, setup.settings[1:], setup.duration), []).append(value)
-    first = setups[0]
-    for (target, more, duration), values in rest.items():
-        if len(values) <= LOOP:
-            lines += [
-                Setup(first.name, first.variant, (f"{target}={value}", *more), duration).command()
-                for value in values
-            ]
-            continue
-        mark = "XVALUEX"
-        one = Setup(first.name, first.variant, (f"{target}={mark}", *more), duration).command()
-        words = " ".join(map(shlex.quote, values))
-        lines.append(f"for x in {words}; do {one.replace(mark, '$x')}; done")
-    return lines
 
 
 def as_json(asked: Sequence[Chapter], found: Mapping[str, Outcome]) -> dict[str, object]:
@@ -317,11 +292,12 @@ class Block:
     """A claim as the page shows it."""
 
     name: str
-    claim: Claim
+    claim: Claim[Any]
     outcome: Outcome
     measured: tuple[tuple[str, str], ...]
     commands: tuple[str, ...]
     pictures: tuple[tuple[Shown, str], ...]
+    kind: str
 
 
 def _page(asked: Sequence[Chapter], found: Mapping[str, Outcome], seconds: float) -> str:
@@ -329,24 +305,36 @@ def _page(asked: Sequence[Chapter], found: Mapping[str, Outcome], seconds: float
         chapter.number: [_block(name, claim, found[name]) for name, claim in chapter.claims.items()]
         for chapter in asked
     }
+    sources = [
+        _kind(source)
+        for chapter in asked
+        for claim in chapter.claims.values()
+        for source in claim.runs.values()
+    ]
     return pages.render(
         TEMPLATE,
         chapters=asked,
         blocks=blocks,
         count=count(found.values()),
-        runs=sum(len(claim.runs) for chapter in asked for claim in chapter.claims.values()),
+        runs=sources.count("run"),
+        trials=sources.count("trial"),
         pictures=sum(len(outcome.pictures) for outcome in found.values()),
         seconds=seconds,
         version=__version__,
     )
 
 
-def _block(name: str, claim: Claim, outcome: Outcome) -> Block:
+def _kind(source: Source[Any]) -> str:
+    return "run" if isinstance(source, Setup) else "trial"
+
+
+def _block(name: str, claim: Claim[Any], outcome: Outcome) -> Block:
     measured = tuple(
         (label.strip(), number_words(value)) for label, value in outcome.verdict.measured.items()
     )
     pictures = tuple((p, base64.b64encode(p.data).decode()) for p in outcome.pictures)
-    return Block(name, claim, outcome, measured, tuple(commands(claim)), pictures)
+    kind = next(map(_kind, claim.runs.values()), "")
+    return Block(name, claim, outcome, measured, tuple(commands(claim)), pictures, kind)
 
 
 def number_words(value: float | str | None) -> str:

@@ -1,4 +1,4 @@
-"""Signals to be denoised: from a table, an array, or a topic of any recording."""
+"""Signals to be denoised: from a table, an array, a topic of any recording, or a test signal."""
 
 import re
 from collections.abc import Iterator
@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from fpt_ros.denoising.noisy import EXAMPLE, PREFIX, parse
 from fpt_ros.errors import BadInput
 from fpt_ros.loop.run import Array
 
@@ -26,26 +27,38 @@ class Source:
         values: (n,), NaN where a sample is missing.
         name: of the column or field.
         table: what it stands in, n rows; the results become its last columns.
+        path: where from; of a test signal its name.
+        clean: the signal without its noise (n,), where it is known.
     """
 
     values: Array
     name: str
     table: "pd.DataFrame"
+    path: Path
+    clean: Array | None = None
 
 
 def load(path: Path, column: str | None, topic: str | None, field: str | None) -> Source:
     """Read a signal.
 
     Args:
-        path: a CSV or NPY file, a recording's directory, or an MCAP file.
+        path: a CSV or NPY file, a recording's directory, an MCAP file, or the word for a test
+            signal (:mod:`~fpt_ros.denoising.noisy`).
         column: name or index of a column; the last one with numbers where it is not given.
         topic, field: of a recording, as in ``/joint_states`` and ``position[2]``.
 
     Raises:
         BadInput: it cannot be read, or the column, topic or field is not there (lists what is).
     """
+    if str(path).startswith(PREFIX):
+        if (column, topic, field) != (None, None, None):
+            raise BadInput(f"{path} is one signal: it takes no --column, --topic and --field")
+        return _test_signal(str(path))
     if not path.exists():
-        raise BadInput(f"{path} does not exist: it takes a CSV or NPY file, or a recording")
+        raise BadInput(
+            f"{path} does not exist: it takes a CSV or NPY file, a recording, or a test signal, as "
+            f"in {EXAMPLE}"
+        )
     if path.is_dir() or path.suffix == ".mcap":
         if topic is None or field is None:
             raise BadInput(f"{path} is a recording: --topic and --field say which signal")
@@ -53,6 +66,16 @@ def load(path: Path, column: str | None, topic: str | None, field: str | None) -
     if topic is not None or field is not None:
         raise BadInput("--topic and --field are for recordings: a table takes --column")
     return _column(path, _table(path), column)
+
+
+def _test_signal(text: str) -> Source:
+    import pandas as pd
+
+    noisy = parse(text)
+    clean, y = noisy.clean(), noisy.samples()
+    time = np.arange(noisy.n) / noisy.n
+    table = pd.DataFrame({"t": time, "clean": clean, "y": y})
+    return Source(y, noisy.signal, table, Path(noisy.signal), clean)
 
 
 def _table(path: Path) -> "pd.DataFrame":
@@ -89,7 +112,7 @@ def _column(path: Path, table: "pd.DataFrame", column: str | None) -> Source:
         chosen = known[column]
         if chosen not in numeric:
             raise BadInput(f"{path}: column '{column}' is not numbers: columns of them are {names}")
-    return Source(table[chosen].to_numpy(dtype=np.float64), str(chosen), table)
+    return Source(table[chosen].to_numpy(dtype=np.float64), str(chosen), table, path)
 
 
 def _recording(path: Path, topic: str, field: str) -> Source:
@@ -114,7 +137,7 @@ def _recording(path: Path, topic: str, field: str) -> Source:
     if not values:
         raise BadInput(f"{path} has no messages on {topic}")
     name = f"{topic}.{field}"
-    return Source(np.array(values), name, pd.DataFrame({"time": times, name: values}))
+    return Source(np.array(values), name, pd.DataFrame({"time": times, name: values}), path)
 
 
 def _follow(message: Any, field: str, topic: str) -> float:

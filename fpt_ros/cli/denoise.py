@@ -11,7 +11,10 @@ if TYPE_CHECKING:
     from fpt_ros.analysis.signal_source import Source
     from fpt_ros.denoising.offline import Result
 
-File = Annotated[Path, typer.Argument(metavar="FILE", help="A CSV or NPY file, or a recording.")]
+File = Annotated[
+    Path,
+    typer.Argument(metavar="FILE", help="A CSV or NPY file, a recording, or test:SIGNAL."),
+]
 Column = Annotated[str | None, typer.Option(metavar="C", help="Column; default: the last one.")]
 Topic = Annotated[str | None, typer.Option(metavar="T", help="Topic of a recording.")]
 Field = Annotated[str | None, typer.Option(metavar="F", help="Field, as in position[2].")]
@@ -46,11 +49,13 @@ def denoise(
     """Denoise a signal: a column of a table, or a field of a recording's topic.
 
     Missing samples (empty, NaN) are healed and marked. The last column of the output is the
-    estimate.
+    estimate. test:SIGNAL is a test signal of chapters 5 and 6 with noise, whose SNR is printed.
 
     Example: fpt denoise signal.csv --column y --plot signal.png
 
     Example: fpt denoise /tmp/tora --topic /joint_states --field position[2] --out q3.csv
+
+    Example: fpt denoise test:sines,rho=0.5,seed=10 --method improved --plot sines.png
     """
     from fpt_ros.analysis.signal_source import load
     from fpt_ros.cli.output import console, print_json
@@ -62,7 +67,7 @@ def denoise(
     if compare:
         _compare(source, json)
         return
-    target = out or file.with_name(f"{file.stem}-denoised.csv")
+    target = out or source.path.with_name(f"{source.path.stem}-denoised.csv")
     if target.absolute() == file.absolute():
         raise BadInput(f"--out {target} is the input: give another name")
     result = _run(source, method, set_ or [])
@@ -74,6 +79,7 @@ def denoise(
         "samples": len(source.values),
         "healed": int(result.healed.sum()),
         "sigma": result.sigma,
+        **_success(source, result),
         "info": dict(result.info),
         "out": str(target),
         "plot": str(plot) if plot is not None else None,
@@ -84,6 +90,9 @@ def denoise(
     healed = f", {numbers['healed']} of them healed" if numbers["healed"] else ""
     screen = console()
     screen.print(f"{source.name}: {numbers['samples']} samples{healed}, noise {result.sigma:.4g}")
+    if source.clean is not None:
+        before, after, rmse = _success(source, result).values()
+        screen.print(f"SNR {before:.4f} dB before, {after:.4f} dB after, RMSE {rmse:.4g}")
     screen.print(f"estimate ({result.method}): {target}", soft_wrap=True)
     if plot is not None:
         screen.print(f"picture: {plot}", soft_wrap=True)
@@ -101,6 +110,20 @@ def _run(source: "Source", method: str, settings: list[str]) -> "Result":
             raise BadInput(f"--set {text}: it takes PARAM=VALUE, as in level=4")
         options[name] = scalar(value)
     return run(source.values, method, **options)  # type: ignore[arg-type]  # checked in there
+
+
+def _success(source: "Source", result: "Result") -> dict[str, float]:
+    """How near to the clean signal, where that is known."""
+    from fpt_ros.denoising.signals import rmse, snr_db
+
+    if source.clean is None:
+        return {}
+    there = ~result.healed
+    return {
+        "snr_before": snr_db(source.clean[there], source.values[there]),
+        "snr_after": snr_db(source.clean, result.estimate),
+        "rmse": rmse(source.clean, result.estimate),
+    }
 
 
 def _write(source: "Source", result: "Result", target: Path, plot: Path | None) -> None:

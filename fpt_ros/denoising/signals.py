@@ -2,7 +2,8 @@
 
 All signals are sampled at t = i/n, i = 0 .. n-1 [length of the record], dimensionless. Those of
 chapter 5 have the standard deviation 0.62521: then the thesis's pair 23.5412 dB, RMSE 0.04159
-(Table 5.1) is consistent. ``doppler6`` of chapter 6 is ``doppler`` with the standard deviation 0.7.
+(Table 5.1) is consistent; ``periodic`` is for healing. ``doppler6`` of chapter 6 is ``doppler``
+with the standard deviation 0.7.
 
 The success of a denoiser is SNR = 10 log10(var(f) / mean((estimate - f)^2)). The formula printed
 below Table 5.1, var(estimate) / var(y - estimate), cannot measure it: a perfect denoiser scores
@@ -18,7 +19,7 @@ from fpt_ros.errors import BadInput
 
 Signal = NDArray[np.float64]
 
-CHAPTER5 = ("sines", "doppler", "heavisine", "bumps", "blocks")
+CHAPTER5 = ("sines", "doppler", "heavisine", "bumps", "blocks", "periodic")
 CHAPTER6 = ("chirp", "doppler6", "spectro", "twotone")
 STD5 = 0.62521
 STD6 = 0.7
@@ -70,6 +71,10 @@ def _blocks(t: Signal) -> Signal:
     return f
 
 
+def _periodic(t: Signal) -> Signal:
+    return np.sin(2 * np.pi * 8 * t) + 0.5 * np.sin(2 * np.pi * 16 * t + 0.7)
+
+
 def _chirp(t: Signal) -> Signal:
     return np.asarray(np.sin(2 * np.pi * (2 * t + 18 * t**3)))
 
@@ -92,6 +97,7 @@ _SHAPES = {
     "heavisine": (_heavisine, STD5),
     "bumps": (_bumps, STD5),
     "blocks": (_blocks, STD5),
+    "periodic": (_periodic, STD5),
     "chirp": (_chirp, 0.0),
     "doppler6": (_doppler, STD6),
     "spectro": (_spectro, STD6),

@@ -490,7 +490,7 @@ def _pair(model: str) -> dict[str, Setup]:
     return {"nonadaptive": Setup(SPHERE, without), "adaptive": Setup(SPHERE, with_it)}
 
 
-def _pictures(track: str, response: str, weights: str) -> tuple[Picture, ...]:
+def _pictures(track: str, response: str, weights: str) -> tuple[Picture[Run], ...]:
     return (
         Picture(track, "Trajectory tracking", draw.tracking("nonadaptive", "adaptive")),
         Picture(track, "Tracking error", draw.errors("nonadaptive", "adaptive")),

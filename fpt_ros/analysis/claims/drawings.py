@@ -168,14 +168,23 @@ def iterations(*keys: str, first: int) -> Draw:
     return panels(build, *keys)
 
 
+ASIDE = {"loc": "center left", "bbox_to_anchor": (1.0, 0.5)}
+
+
 def charts(
-    *cells: tuple[str, str, str, Sequence[Curve]], height: float = 3.4, log: str = ""
+    *cells: tuple[str, str, str, Sequence[Curve]],
+    height: float = 3.4,
+    log: str = "",
+    rows: int = 1,
+    aside: bool = False,
 ) -> Drawn:
-    """Plain charts beside each other: title, x label, y label and curves of each."""
+    """Plain charts beside each other: title, x label, y label and curves of each.
+
+    ``aside``: legends stand on the right of the chart, where curves leave no room.
+    """
     figure = Figure(figsize=(10.5, height), layout="constrained")
-    for axes, (title, x_label, y_label, curves) in zip(
-        figure.subplots(1, len(cells), squeeze=False).flat, cells, strict=True
-    ):
+    grid = figure.subplots(rows, -(-len(cells) // rows), squeeze=False)
+    for axes, (title, x_label, y_label, curves) in zip(grid.flat, cells, strict=True):
         assert isinstance(axes, Axes)
         for x, y, label, how in curves:
             axes.plot(x, y, label=label or None, **how)
@@ -187,5 +196,5 @@ def charts(
         if "y" in log:
             axes.set_yscale("log")
         if any(label for _, _, label, _ in curves):
-            axes.legend(loc="best")
+            axes.legend(**(ASIDE if aside else {"loc": "best"}))
     return figure, ()

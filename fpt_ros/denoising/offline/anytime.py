@@ -3,22 +3,30 @@
 See :mod:`healing`: ``rehearsal`` is the default, ``thesis`` fills by period or nearest neighbour.
 """
 
+from collections.abc import Mapping
+
 from fpt_ros.denoising.offline import Mask, Method, Signal
-from fpt_ros.denoising.offline.healing import heal, periodic
+from fpt_ros.denoising.offline.healing import Filler, heal, linear, nearest, periodic
 from fpt_ros.parameters import Parameter, Values, word
 
+FILLERS: Mapping[str, Filler] = {
+    "rehearsal": heal,
+    "thesis": periodic,
+    "nearest": nearest,
+    "linear": linear,
+}
 PARAMETERS = (
     Parameter(
         "filler",
         "rehearsal: the one that errs least on known data; thesis: by period, else nearest",
         "rehearsal",
-        choices=("rehearsal", "thesis"),
+        choices=tuple(FILLERS),
     ),
 )
 
 
 def _estimate(y: Signal, present: Mask, values: Values) -> Signal:
-    return heal(y, present) if word(values, "filler") == "rehearsal" else periodic(y, present)
+    return FILLERS[word(values, "filler")](y, present)
 
 
 ANYTIME = Method(PARAMETERS, _estimate, shortest=lambda _: 1)
