@@ -37,7 +37,7 @@ test: $(READY)
 
 bench: $(READY)
 	@$(BIN)/python -m pip install --quiet --disable-pip-version-check -r requirements-bench.txt
-	@for each in graph engine realtime start; do $(BIN)/python benchmarks/$$each.py || exit 1; done
+	@for each in engine streaming sweep start graph realtime; do $(BIN)/python benchmarks/$$each.py || exit 1; done
 
 lint: $(READY)
 	@$(BIN)/ruff check .

@@ -14,6 +14,10 @@ from rich.console import Console
 from rich.table import Table
 
 
+WIDTH = 132
+"""Least width of a table [columns]: narrower it would be cut where there is no terminal."""
+
+
 def machine() -> dict[str, Any]:
     """Where and when: printed with every table."""
     model = platform.machine()
@@ -75,7 +79,8 @@ def show(title: str, rows: Sequence[Mapping[str, Any]], as_json: bool) -> None:
         table.add_column(key, justify="left" if i == 0 else "right")
     for row in rows:
         table.add_row(*[_text(value) for value in row.values()])
-    Console().print(table)
+    screen = Console()
+    Console(width=max(screen.width, WIDTH)).print(table)
 
 
 def _text(value: Any) -> str:
