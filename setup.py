@@ -27,6 +27,7 @@ setup(
     package_data={
         "fpt_ros": ["py.typed"],
         "fpt_ros.analysis": ["*.html.j2", "*.css"],
+        "fpt_ros.nodes": ["*.xml"],
     },
     data_files=[
         ("share/ament_index/resource_index/packages", ["resource/fpt_ros"]),

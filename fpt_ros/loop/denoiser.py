@@ -1,11 +1,12 @@
 """Stage 2 of the cycle: from what is measured to the motion and the observed response."""
 
 import math
+from array import array
 from collections.abc import Callable
 
 from fpt_ros import registry
 from fpt_ros.denoising.streaming import ORDER
-from fpt_ros.laws import MutableVector, Vector, helper, part
+from fpt_ros.laws import MutableVector, Vector, helper
 from fpt_ros.loop.stage import CYCLE_TIME, REALTIME, Input, Stage
 from fpt_ros.messages.frames import Command, JointStates, StateEstimate
 from fpt_ros.messages.topics import COMMAND, JOINT_STATES, STATE_ESTIMATE
@@ -85,7 +86,7 @@ class Denoiser(Stage):
     def begin(self, q: list[float], v: list[float], dt: float) -> None:
         """Size the state for samples dt [s] apart, and take the first one."""
         self._set_constants(len(q), dt)
-        del self.state[:]
+        self.state = array("d")
         motion = [*q, *([0.0] * len(q))] if self.synchronised else []
         filters = 2 if self.synchronised else 1
         self.state.extend([0.0] * (filters * self._size) + motion)
@@ -93,11 +94,10 @@ class Denoiser(Stage):
         if self.synchronised:
             self.filter.start(self.constants, self.parts()[1], q, motion[len(q) :])
 
-    def parts(self) -> tuple[MutableVector, MutableVector, MutableVector]:
+    def parts(self) -> tuple[MutableVector, ...]:
         """The state: of the filter, of the second one, and of the motion that it sees."""
         size = self._size
-        both = (2 if self.synchronised else 1) * size
-        return part(self.state, 0, size), part(self.state, size, both), part(self.state, both)
+        return self._divide(size, (2 if self.synchronised else 1) * size)
 
     def _set_constants(self, n: int, dt: float) -> None:
         self.constants = list(self.filter.prepare(self.values, n, dt))

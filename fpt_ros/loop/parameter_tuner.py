@@ -1,10 +1,11 @@
 """Stage 4 of the cycle: what was observed corrects the model, the gain or the weights."""
 
 from collections.abc import Callable
+from itertools import accumulate
 
 from fpt_ros import registry
 from fpt_ros.errors import BadInput
-from fpt_ros.laws import MutableVector, Vector, helper, part
+from fpt_ros.laws import MutableVector, Vector, helper
 from fpt_ros.loop.approximate_model import model_parameters
 from fpt_ros.loop.stage import CYCLE_TIME, REALTIME, Input, Stage, indices
 from fpt_ros.loop.tuned import FACTOR, PRECURSOR, WEIGHT
@@ -213,18 +214,15 @@ class ParameterTuner(Stage):
             start, self.tuned = [law.start] * len(weights), tuple(WEIGHT + x for x in weights)
         self.published = (*self.tuned, *law.signals, PRECURSOR, FACTOR)
         memory = law.memory(self.constants, len(start), self.rows, n)
-        self._sizes = len(start), memory, 2 * n + c, 3 * c, 1 + memory_size(n)
+        *cuts, size = accumulate((len(start), memory, 2 * n + c, 3 * c, 1 + memory_size(n)))
+        self._cuts = tuple(cuts)
         if not self.state:
-            self.state.extend(start + [0.0] * (sum(self._sizes) - len(start)))
+            self.state.extend(start + [0.0] * (size - len(start)))
             self.parts()[4][0] = 1.0
 
     def parts(self) -> tuple[MutableVector, ...]:
         """The state: tuned values, the law's memory, last cycle, tracking, observer."""
-        at, found = 0, []
-        for size in self._sizes:
-            found.append(part(self.state, at, at + size))
-            at += size
-        return tuple(found)
+        return self._divide(*self._cuts)
 
     def step(self, estimate: StateEstimate, *rest: "Desired | Command | None") -> Tuning:
         """What is tuned in cycle k; the initial values in the first cycle, without a command.

@@ -6,7 +6,7 @@ from collections.abc import Callable
 
 from fpt_ros import registry
 from fpt_ros.errors import BadInput, Diverged
-from fpt_ros.laws import MutableVector, Vector, helper, part
+from fpt_ros.laws import MutableVector, Vector, helper
 from fpt_ros.loop.stage import REALTIME, Input, Stage
 from fpt_ros.messages.frames import SECOND, Command, JointStates, Names
 from fpt_ros.messages.topics import COMMAND, JOINT_STATES
@@ -229,11 +229,10 @@ class PlantSimulator(Stage):
             raise BadInput(f"{self.name}.{name}: {len(given)} numbers given, {n} needed ({names})")
         return given or [default] * n
 
-    def memory(self) -> tuple[MutableVector, MutableVector, MutableVector]:
+    def memory(self) -> tuple[MutableVector, ...]:
         """The state in its parts: of the plant, of the disturbance, and the motions of the past."""
         split = 3 * len(self.coordinates)
-        end = split + self.disturbance.state
-        return part(self.state, 0, split), part(self.state, split, end), part(self.state, end)
+        return self._divide(split, split + self.disturbance.state)
 
     def noise(self) -> Vector:
         """Unit normal numbers: for each cycle n for the positions, then n for the velocities.

@@ -9,9 +9,11 @@ from abc import ABC, abstractmethod
 from array import array
 from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 from typing import ClassVar
 
 from fpt_ros.errors import BadInput
+from fpt_ros.laws import MutableVector, part
 from fpt_ros.messages.frames import SECOND, Names
 from fpt_ros.messages.topics import Topic
 from fpt_ros.parameters import Parameter, Values, resolve
@@ -28,6 +30,10 @@ CYCLE_TIME = Parameter(
     live=False,
 )
 """Declared by the stages that answer; set by what starts the graph, from the plant's ``dt``."""
+
+
+_Divided = tuple["array[float]", tuple[int, ...], tuple[MutableVector, ...]]
+"""A state, where it is cut, and its parts."""
 
 
 @dataclass(frozen=True)
@@ -65,6 +71,7 @@ class Stage(ABC):
         self.values = resolve(self.parameters(given), given, self.name)
         self.state = array("d")
         self.clock = array("q", (-1, -1))
+        self._divided: _Divided = (self.state, (), ())
         self._prepare()
 
     @classmethod
@@ -106,6 +113,18 @@ class Stage(ABC):
     @abstractmethod
     def _prepare(self) -> None:
         """Work out the constants of the laws from ``values``."""
+
+    def _divide(self, *cuts: int) -> tuple[MutableVector, ...]:
+        """The state cut at these places, each part to be read and written where it stands.
+
+        Made anew only where the state is another, or cut otherwise: a state of which there are
+        parts cannot change its size.
+        """
+        state, at, parts = self._divided
+        if state is not self.state or at != cuts:
+            parts = tuple(part(self.state, a, b) for a, b in pairwise((0, *cuts, len(self.state))))
+            self._divided = self.state, cuts, parts
+        return parts
 
     def _advance_clock(self, stamp: int) -> tuple[float, float]:
         """Time since the first cycle and since the latest one [s]; 0.0 and 0.0 in the first."""

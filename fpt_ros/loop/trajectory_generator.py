@@ -6,7 +6,7 @@ from collections.abc import Callable
 from fpt_ros import registry
 from fpt_ros.error_relaxation import RELAXATIONS, Prescription, combined_error
 from fpt_ros.errors import BadInput
-from fpt_ros.laws import MutableVector, Vector, helper, part
+from fpt_ros.laws import MutableVector, Vector, helper
 from fpt_ros.loop.stage import CYCLE_TIME, REALTIME, Input, Stage, indices
 from fpt_ros.messages.frames import SECOND, Desired, Names, StateEstimate
 from fpt_ros.messages.topics import DESIRED, STATE_ESTIMATE
@@ -150,10 +150,10 @@ class TrajectoryGenerator(Stage):
         if not self.state:
             self.state.extend([0.0] * (2 * c) + [-1.0, *self.trajectory.state])
 
-    def memory(self) -> tuple[MutableVector, MutableVector]:
+    def memory(self) -> tuple[MutableVector, ...]:
         """The state in its two parts: of the trajectory, and of the errors."""
-        split = 2 * len(self.controlled) + 1
-        return part(self.state, split), part(self.state, 0, split)
+        errors, trajectory = self._divide(2 * len(self.controlled) + 1)
+        return trajectory, errors
 
     def locate(self, names: Names) -> tuple[int, ...]:
         """Where the controlled coordinates stand among ``names``."""
@@ -168,6 +168,7 @@ class TrajectoryGenerator(Stage):
         t, dt = self._advance_clock(stamp)
         c = len(self.controlled)
         out = [0.0] * c, [0.0] * c, [0.0] * c, [0.0] * c
+        motion, errors = self.memory()
         active = slot(self.slots, float(stamp - self.clock[0]))
         prescribe(
             self.trajectory.nominal,
@@ -176,7 +177,8 @@ class TrajectoryGenerator(Stage):
             self.lam,
             self._where,
             active,
-            *self.memory(),
+            motion,
+            errors,
             t,
             dt,
             q,

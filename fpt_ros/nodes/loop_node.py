@@ -1,13 +1,12 @@
 """What every node of the graph is: loop subscriptions that hand over bytes, and diagnostics."""
 
 import importlib
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from time import monotonic
 from typing import Any
 
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus, KeyValue
 from rclpy.node import Node
-from rclpy.publisher import Publisher
 from rclpy.subscription import Subscription
 
 from fpt_ros.messages.topics import Topic
@@ -50,9 +49,16 @@ class LoopNode(Node):
             self.create_subscription(kind, name, on_bytes, loop_qos(depth), raw=True)
         )
 
-    def advertise(self, topic: Topic) -> Publisher:
-        """Publisher of a loop topic; it takes serialised messages."""
-        return self.create_publisher(message_class(topic.type), topic.name, loop_qos())
+    def advertise(self, topic: Topic) -> Callable[[bytes], None]:
+        """Advertise a loop topic; what is returned publishes a serialised message."""
+        publisher = self.create_publisher(message_class(topic.type), topic.name, loop_qos())
+        # past what rclpy's Publisher.publish checks at every message
+        return getattr(publisher.handle, "publish_raw", publisher.publish)
+
+    @property
+    def awaited(self) -> Sequence[int]:
+        """Which of :attr:`loop_subscriptions` to wait for; what else has come is taken then."""
+        return range(len(self.loop_subscriptions))
 
     def begin(self) -> None:
         """Called once when everything is set up, before the first wait."""

@@ -6,6 +6,7 @@ import sys
 from collections.abc import Callable, Sequence
 
 from fpt_ros.errors import BadInput, FptError
+from fpt_ros.nodes import middleware
 from fpt_ros.nodes.loop_node import LoopNode
 from fpt_ros.nodes.spin import spin
 
@@ -48,6 +49,7 @@ def _run(factories: Sequence[Callable[[], LoopNode]], stop: _Stop) -> None:
     from rclpy.signals import SignalHandlerOptions
     from rclpy.utilities import get_default_context, try_shutdown
 
+    middleware.configure()
     try:
         rclpy.init(args=sys.argv, signal_handler_options=SignalHandlerOptions.NO)
     except rclpy_implementation.RCLError as error:

@@ -8,10 +8,9 @@ internals have changed, the executor serves the loop too: the same callbacks, sl
 
 from collections.abc import Callable, Sequence
 from time import monotonic
-from typing import Any
 
 from rclpy.context import Context
-from rclpy.executors import SingleThreadedExecutor
+from rclpy.executors import SingleThreadedExecutor, TimeoutException
 
 from fpt_ros.nodes.loop_node import LoopNode
 
@@ -28,13 +27,13 @@ class _LoopWaitSet:
     def __init__(self, nodes: Sequence[LoopNode], context: Context) -> None:
         from rclpy.impl.implementation_singleton import rclpy_implementation
 
-        self._entries: list[tuple[int, Any, Any, Callable[[bytes], None]]] = [
-            (sub.handle.pointer, sub.handle, sub.msg_type, sub.callback)
+        self._nodes = [
+            (node, [(sub.handle, sub.msg_type, sub.callback) for sub in node.loop_subscriptions])
             for node in reversed(nodes)
-            for sub in node.loop_subscriptions
         ]
         self._polls = len(nodes) > 1
-        self._set = rclpy_implementation.WaitSet(len(self._entries), 0, 0, 0, 0, 0, context.handle)
+        size = sum(len(entries) for _, entries in self._nodes)
+        self._set = rclpy_implementation.WaitSet(size, 0, 0, 0, 0, 0, context.handle)
         self.wait_and_dispatch(0.0)
 
     def wait_and_dispatch(self, timeout: float) -> bool:
@@ -48,30 +47,26 @@ class _LoopWaitSet:
             return True
         wait_set = self._set
         wait_set.clear_entities()
-        for _, handle, _, _ in self._entries:
-            wait_set.add_subscription(handle)
+        for node, entries in self._nodes:
+            for i in node.awaited:
+                wait_set.add_subscription(entries[i][0])
         wait_set.wait(max(0, int(timeout * 1e9)))
-        ready = wait_set.get_ready_entities("subscription")
-        for pointer, handle, kind, callback in self._entries:
-            if pointer in ready:
-                taken = handle.take_message(kind, True)
-                if taken is not None:
-                    callback(taken[0])
-        return bool(ready)
+        return bool(wait_set.get_ready_entities("subscription")) and self._poll()
 
     def _poll(self) -> bool:
         """Hand over what is there already."""
         came = False
-        for _, handle, kind, callback in self._entries:
-            taken = handle.take_message(kind, True)
-            if taken is not None:
-                callback(taken[0])
-                came = True
+        for _, entries in self._nodes:
+            for handle, kind, callback in entries:
+                taken = handle.take_message(kind, True)
+                if taken is not None:
+                    callback(taken[0])
+                    came = True
         return came
 
 
 def spin(nodes: Sequence[LoopNode], stopped: Callable[[], bool], context: Context) -> None:
-    """Run nodes until one of them has finished its work or ``stopped()``."""
+    """Run nodes until one of them has finished its work or ``stopped()``, asked now and then."""
     executor = SingleThreadedExecutor(context=context)
     for node in nodes:
         executor.add_node(node)
@@ -80,9 +75,11 @@ def spin(nodes: Sequence[LoopNode], stopped: Callable[[], bool], context: Contex
         node.begin()
     next_service = monotonic()
     try:
-        while not stopped() and not any(node.finished for node in nodes):
+        while not any(node.finished for node in nodes):
             now = monotonic()
             if now >= next_service:
+                if stopped():
+                    break
                 _serve(executor, nodes)
                 now = monotonic()
                 next_service = now + SERVICE_PERIOD
@@ -119,6 +116,13 @@ def _hot_path(nodes: Sequence[LoopNode], context: Context) -> _LoopWaitSet | Non
 
 def _serve(executor: SingleThreadedExecutor, nodes: Sequence[LoopNode]) -> None:
     for _ in range(_CALLS):
-        executor.spin_once(timeout_sec=0.0)
+        try:
+            handler, _, _ = executor.wait_for_ready_callbacks(timeout_sec=0.0)
+        except TimeoutException:
+            break  # mostly nobody calls: one look is what it costs
+        handler()
+        error = handler.exception()
+        if error is not None:
+            raise error
     for node in nodes:
         node.housekeeping()

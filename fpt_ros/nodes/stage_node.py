@@ -1,6 +1,6 @@
 """A node around one stage: it waits for the messages of a cycle, steps, and publishes."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 from rcl_interfaces.msg import ParameterEvent
@@ -27,7 +27,7 @@ class ParameterisedNode(LoopNode):
         self.stage: Any = kind(declare(self, kind.parameters))
         self._pending: dict[str, Value] = {}
         self._changes = self.create_publisher(ParameterEvent, CHANGES, 10)
-        self._output = self.advertise(kind.output) if self.publishes else None
+        self._publish = self.advertise(kind.output) if self.publishes else None
         self._encode = Codec(kind.output).encode
         watch(self, self._accept)
 
@@ -62,8 +62,8 @@ class ParameterisedNode(LoopNode):
 
     def send(self, frame: Frame) -> None:
         """Publish the stage's output."""
-        assert self._output is not None
-        self._output.publish(self._encode(frame))
+        assert self._publish is not None
+        self._publish(self._encode(frame))
         self.cycles_done += 1
 
 
@@ -107,6 +107,17 @@ class StageNode(ParameterisedNode):
             self._try_step()
 
         return receive
+
+    @property
+    def awaited(self) -> Sequence[int]:
+        """The last of the messages that are missing: the others are there when it comes."""
+        for i in reversed(range(len(self._latest))):
+            frame, lag = self._latest[i], self._lags[i]
+            if lag and (self._realtime or self._acted < 0):
+                continue  # it acts without it, too
+            if frame is None or frame.stamp < self._acted + (not lag):
+                return (i,)
+        return range(len(self._latest))
 
     def _try_step(self) -> None:
         """Step if the messages of a cycle not acted on are complete."""
