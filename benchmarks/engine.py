@@ -66,13 +66,13 @@ def run_c(run: Callable[..., int], rows: list[np.ndarray]) -> float:
     return cycles / took
 
 
-def check(name: str, run: Callable[..., int]) -> float:
+def check(name: str, run: Callable[..., int], cycles: int) -> float:
     """Largest relative difference of the settled rms errors of engine and C.
 
     Raises:
         RuntimeError: they do not agree.
     """
-    engine = engine_of(name)
+    engine = engine_of(name, cycles)
     engine.run()
     rows = rows_like(engine, engine.cycles)
     run_c(run, rows)
@@ -196,12 +196,12 @@ def in_python(cycles: int) -> dict[str, Callable[[], float]]:
 
 def main() -> None:
     """Check, measure, and print the table."""
-    options = arguments(__doc__ or "", cycles=1_000_000)
+    options = arguments(__doc__ or "", cycles=1_000_000, only="")
     rows = []
     with tempfile.TemporaryDirectory(prefix="fpt-bench-") as folder:
-        for name in EXPERIMENTS:
+        for name in (options.only,) if options.only else EXPERIMENTS:
             run = c_loop(name, Path(folder))
-            worst = check(name, run)
+            worst = check(name, run, options.cycles)
 
             def engine(name: str = name) -> float:
                 one = engine_of(name, options.cycles)

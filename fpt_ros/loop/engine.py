@@ -2,6 +2,7 @@
 
 from array import array
 from collections.abc import Callable
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -25,6 +26,9 @@ from fpt_ros.messages.topics import (
 
 CHUNK = 8192
 """Cycles between two looks at progress and Ctrl-C."""
+
+LONG = 500_000
+"""Cycles from which a loop with its laws built in is worth the seconds that it takes, once."""
 
 Observer = Callable[[Topic, Frame], None]
 """Called with every frame, in the order of events."""
@@ -76,10 +80,11 @@ class Engine:
             plant.plant.response,
             plant.disturbance.force,
         )
-        self._run: Callable[..., int] = cycles.run
+        run: Callable[..., int] = cycles.run
+        self._run: Callable[..., int] = partial(run, *functions)
         if compile_laws:
-            functions = tuple(map(compiled.law, functions, cycles.FUNCTIONS))
-            self._run = compiled.loop(cycles.run, cycles.FUNCTIONS, cycles.ARGUMENTS)
+            loop_with = compiled.loop_of_its_own if self.cycles >= LONG else compiled.loop
+            self._run = loop_with(run, functions, cycles.FUNCTIONS, cycles.ARGUMENTS)
         where = np.array(trajectory.locate(plant.coordinates), dtype=np.int64)
         tuned_where = tuner.where if tuner.active else ()
         parts = tuner.parts() if tuner.active else (array("d"),) * 5
@@ -145,7 +150,6 @@ class Engine:
             np.zeros(tuner.rows),
             np.zeros(6 * n + 4 * c),
         )
-        self._functions = functions
         self._rows = {
             topic: [np.empty((plant.cycles, len(names))) for _ in topic.vectors]
             for topic, names in self._names.items()
@@ -196,7 +200,7 @@ class Engine:
     def _call(self, first: int, end: int) -> int:
         rows = [matrix for vectors in self._rows.values() for matrix in vectors]
         with np.errstate(all="ignore"):
-            return self._run(*self._functions, first, end, *self._fixed, *rows)
+            return self._run(first, end, *self._fixed, *rows)
 
     def _last_command(self) -> Command | None:
         n = len(self._loop.plant.coordinates)

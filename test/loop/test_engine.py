@@ -1,12 +1,14 @@
 """The compiled engine equals the stages, called one by one as plain Python, to the last bit."""
 
+import importlib.util
+
 import numpy as np
 import pytest
 from engine_runs import stage_by_stage
 
 from fpt_ros.errors import Diverged
+from fpt_ros.loop import compiled, experiment
 from fpt_ros.loop import engine as engine_module
-from fpt_ros.loop import experiment
 from fpt_ros.loop.engine import Engine
 from fpt_ros.loop.run import Collector
 
@@ -170,6 +172,50 @@ def test_the_engine_as_plain_python_gives_the_same_bits(name, variant):
     loaded = load(name, variant, cycles=150)
     plain, compiled = (finished(loaded.loop(), each)[0] for each in (False, True))
     assert_identical(plain.topics(), compiled.topics())
+
+
+@pytest.mark.parametrize(
+    ("name", "variant"),
+    [
+        ("tora", "adaptive"),
+        ("vdp_rfpt", "adaptive"),
+        ("cart_beam_hamper", "lugre"),
+        ("spherical_pendulum", "adaptive"),
+        ("swing", "adaptive"),
+    ],
+)
+def test_a_long_run_has_its_laws_built_in_and_gives_the_same_bits(monkeypatch, name, variant):
+    loaded = load(name, variant)
+    through_pointers = finished(loaded.loop())[0].topics()
+    monkeypatch.setattr(engine_module, "LONG", CYCLES)
+    monkeypatch.setattr(compiled, "loop", None)
+    assert_identical(finished(loaded.loop())[0].topics(), through_pointers)
+
+
+def sum_of(law, other, x):
+    return law(x) + other(x)
+
+
+def law_of(path, text):
+    path.write_text(f"def law(x):\n    return {text}\n")
+    spec = importlib.util.spec_from_file_location(path.stem, path)
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module.law
+
+
+def test_built_in_laws_are_kept_on_disk_and_are_those_of_the_files_as_they_are(tmp_path):
+    other = law_of(tmp_path / "other.py", "x * x")
+    first = law_of(tmp_path / "mine.py", "x + 1.0")
+    rest = ("ff", "ff"), "ff"
+    fresh = compiled.loop_of_its_own.__wrapped__
+    for hits in (0, 1):
+        found = fresh(sum_of, (first, other), *rest)
+        assert found(3.0) == 4.0 + 9.0
+        assert sum(found.stats.cache_hits.values()) == hits
+    assert fresh(sum_of, (other, first), *rest)(3.0) == 9.0 + 4.0
+    changed = law_of(tmp_path / "mine.py", "x + 2.0")
+    assert fresh(sum_of, (changed, other), *rest)(3.0) == 5.0 + 9.0
 
 
 @pytest.mark.parametrize("chunk", [1, 7, 399, 400, 401])
