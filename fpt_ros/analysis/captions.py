@@ -57,6 +57,13 @@ CAPTIONS = {
         "a response that is smooth from cycle to cycle, below 0 where it oscillates; gain_factor: "
         "what the guard leaves of the gain.",
     ),
+    "latency": Caption(
+        "Latency in real time",
+        "Cycles by the time from the sensor's message to the command for it, on bins of equal "
+        "ratio, both scales logarithmic. A deadline is missed where a cycle (dt, the deadline) "
+        "ends without its command; commands that come later still are counted here, those that "
+        "never come are not.",
+    ),
 }
 """By the figure's name, in the order of the page."""
 

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
-from fpt_ros.analysis import motion_figures, response_figures, style
+from fpt_ros.analysis import latency_figure, motion_figures, response_figures, style
 from fpt_ros.analysis.captions import CAPTIONS, thesis_figures
 from fpt_ros.analysis.panels import Panels
 from fpt_ros.loop.run import Run
@@ -43,8 +43,8 @@ def charts(runs: Sequence[Run], only: Sequence[str] = ()) -> dict[str, Chart]:
 
     Returns:
         Of ``tracking``, ``tracking_error``, ``phase_trajectories``, ``responses``,
-        ``responses_zoom``, ``forces``, ``uncontrolled`` and ``parameters`` those with anything in
-        them.
+        ``responses_zoom``, ``forces``, ``uncontrolled``, ``parameters`` and ``latency`` those with
+        anything in them.
     """
     found = {}
     with style.settings():
@@ -70,4 +70,5 @@ _BUILDERS: dict[str, Callable[[Sequence[Run]], Panels | None]] = {
     "forces": response_figures.forces,
     "uncontrolled": motion_figures.uncontrolled,
     "parameters": response_figures.parameters,
+    "latency": latency_figure.latency,
 }

@@ -18,6 +18,7 @@ counts: :mod:`fpt_ros.analysis.gain_map`.
 """
 
 import math
+import shlex
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
@@ -259,9 +260,7 @@ def warning(experiment: "Experiment") -> str:
     except BadInput:
         return ""
     A, sign = gain.given, gain.sign
-    more = f"fpt gain {experiment.name}"
-    if experiment.variant != "adaptive":
-        more += f" --variant {experiment.variant}"
+    more = shlex.join(["fpt", "gain", *(experiment.source or (experiment.name,))])
     low, high = gain.range
     interval = f"({low:.4g}, {high:.4g})"
     hard = gain.hard_onset

@@ -16,6 +16,9 @@ Summary = Mapping[str, object]
 TRACKING = ("rms_settled", "max_settled", "rms")
 """Quantities of ``tracking`` that :func:`comparison` lists, the most telling first."""
 
+REAL_TIME = ("missed_deadlines", "latency_median_ms", "latency_p99_ms", "latency_max_ms")
+"""Quantities of ``real_time`` that :func:`comparison` lists."""
+
 
 def summary(run: Run) -> dict[str, object]:
     """The run's numbers as a JSON object (design, section 6).
@@ -24,7 +27,9 @@ def summary(run: Run) -> dict[str, object]:
     controlled coordinate, rms and largest size of e = q^N - q, over all cycles and over those with
     t >= settle_time; with time sharing the turns of the others count too. ``chatter``
     is the mean of ||r_k - r_(k-1)|| over k >= 1 (section 3.2.2 of the thesis: it jumps where the
-    control begins to oscillate). A number that does not exist is ``None``, never NaN.
+    control begins to oscillate). ``real_time`` is of a recording on the wall clock, otherwise
+    ``None``: cycles that ended without their command, and latency from sensor to command [ms].
+    A number that does not exist is ``None``, never NaN.
     """
     info = run.info
     cycles = len(run.topics["joint_states"].stamps) if "joint_states" in run.topics else 0
@@ -44,6 +49,7 @@ def summary(run: Run) -> dict[str, object]:
         "effort": _effort(run),
         "chatter": _chatter(run),
         "final_parameters": _final_parameters(run),
+        "real_time": _real_time(run),
         "complete": info.get("complete") == "true",
         "reason": info.get("reason", ""),
     }
@@ -51,7 +57,7 @@ def summary(run: Run) -> dict[str, object]:
 
 def rms(values: Array) -> float | None:
     """Root mean square of the numbers that are not NaN; ``None`` where there are none."""
-    known = values[~np.isnan(values)]
+    known = _known(values)
     if not len(known):
         return None
     # scaled, because a run that diverges ends in numbers whose squares overflow
@@ -63,8 +69,14 @@ def rms(values: Array) -> float | None:
 
 def largest(values: Array) -> float | None:
     """Largest absolute value of the numbers that are not NaN; ``None`` where there are none."""
-    known = values[~np.isnan(values)]
+    known = _known(values)
     return finite(float(np.max(np.abs(known)))) if len(known) else None
+
+
+def _known(values: Array) -> Array:
+    """The numbers that are not NaN; without a copy where all are."""
+    missing = np.isnan(values)
+    return values[~missing] if missing.any() else values
 
 
 def finite(value: float) -> float | None:
@@ -98,11 +110,12 @@ def _chatter(run: Run) -> float | None:
         return None
     with np.errstate(invalid="ignore"):
         steps = np.diff(command.vectors["accelerations"], axis=0)
-    steps = steps[:, ~np.all(np.isnan(steps), axis=0)]
-    if not steps.size:
-        return None
-    # a coordinate that is not controlled in either cycle makes no step
-    return finite(float(np.mean(np.linalg.norm(np.where(np.isnan(steps), 0.0, steps), axis=1))))
+    missing = np.isnan(steps)
+    if missing.any():
+        there = ~missing.all(axis=0)
+        # a coordinate that is not controlled in either cycle makes no step
+        steps = np.where(missing, 0.0, steps)[:, there]
+    return finite(float(np.mean(np.linalg.norm(steps, axis=1)))) if steps.size else None
 
 
 def _final_parameters(run: Run) -> dict[str, float | None]:
@@ -123,15 +136,33 @@ def _final_parameters(run: Run) -> dict[str, float | None]:
     return {**own, **found}
 
 
+def _real_time(run: Run) -> dict[str, float | int | None] | None:
+    latency = run.latency
+    if latency is None:
+        return None
+    ms = {
+        "median": latency.quantile(0.5),
+        "p99": latency.quantile(0.99),
+        "max": latency.largest if latency.total else math.nan,
+    }
+    return {
+        "cycles": latency.cycles,
+        "missed_deadlines": latency.missed,
+        **{f"latency_{name}_ms": finite(1e3 * value) for name, value in ms.items()},
+    }
+
+
 @dataclass(frozen=True)
 class Row:
     """One quantity of several runs.
 
     Attributes:
-        coordinate: whose; empty for chatter, which is of all.
-        quantity: ``rms_settled``, ``max_settled``, ``rms``, ``effort`` (its rms) or ``chatter``.
+        coordinate: whose; empty for what is of all.
+        quantity: ``rms_settled``, ``max_settled``, ``rms``, ``effort`` (its rms), ``chatter``, or
+            one of :data:`REAL_TIME`.
         values: one a run; ``None`` where a run has none.
-        ratios: each value over that of the run it is measured against (:func:`baselines`).
+        ratios: each value over that of the run it is measured against (:func:`baselines`); none
+            of what depends on the machine.
     """
 
     coordinate: str
@@ -155,7 +186,9 @@ def baselines(summaries: Sequence[Summary]) -> list[int]:
 
 
 def comparison(summaries: Sequence[Summary]) -> list[Row]:
-    """Runs side by side: errors and effort of each coordinate, the controlled first; chatter."""
+    """Runs side by side: errors and effort of each coordinate, the controlled first; chatter;
+    what those in real time say of their deadlines.
+    """
     rows = []
     tracked = _names(summaries, "tracking")
     for name in dict.fromkeys([*tracked, *_names(summaries, "effort")]):
@@ -169,7 +202,15 @@ def comparison(summaries: Sequence[Summary]) -> list[Row]:
             rows.append(_row(summaries, name, "effort", efforts))
     chatter = [cast("float | None", s.get("chatter")) for s in summaries]
     rows.append(_row(summaries, "", "chatter", chatter))
+    for key in REAL_TIME:
+        values = tuple(_timing(s).get(key) for s in summaries)
+        if any(value is not None for value in values):
+            rows.append(Row("", key, values, (None,) * len(values)))
     return rows
+
+
+def _timing(one: Summary) -> Mapping[str, float | None]:
+    return cast("Mapping[str, float | None]", one.get("real_time") or {})
 
 
 def _names(summaries: Sequence[Summary], part: str) -> list[str]:

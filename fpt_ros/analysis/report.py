@@ -119,6 +119,7 @@ def _page(runs: Sequence[Run], found: dict[str, Chart], pictures: dict[str, byte
         charts=[(chart, encoded[name]) for name, chart in found.items()],
         labels=run_labels(runs),
         nodes=differences(runs),
+        real_time=any(run.latency is not None for run in runs),
         versions=sorted({run.info.get("version", "") for run in runs} - {""}),
     )
 
@@ -139,6 +140,7 @@ def _about(run: Run, label: str) -> About:
     states = run.topics.get("joint_states")
     last = int(states.stamps[-1]) - signals.origin(run) if states and len(states.stamps) else 0
     complete = bool(one["complete"])
+    late = run.latency
     reason = str(one["reason"])
     if complete:
         ending = "complete" + (f" ({reason})" if reason else "")
@@ -149,6 +151,7 @@ def _about(run: Run, label: str) -> About:
         f"settled from {one['settle_time']:g} s on",
         f"engine {str(one['engine']).replace('_', ' ') or 'not known'}",
         f"seed {one['seed']}",
+        *(() if late is None else (f"real time, {late.missed} of {late.cycles} deadlines missed",)),
     )
     sentence = shows[:1].upper() + shows[1:]
     return About(

@@ -20,6 +20,9 @@ from fpt_ros.messages.frames import SECOND
 from fpt_ros.parameters import Value
 from fpt_ros.plants import Plant
 
+Stamps = NDArray[np.int64]
+"""(N,) times of messages [ns]."""
+
 CONTROLLER_ONLY = ("K_D",)
 """Parameters of models that no plant has: gains of a feedback of their own."""
 
@@ -76,7 +79,7 @@ def origin(run: Run) -> int:
     return min(stamps, default=0)
 
 
-def seconds(run: Run, stamps: NDArray[np.int64]) -> Array:
+def seconds(run: Run, stamps: Stamps) -> Array:
     """(N,) stamps as times since the run's first stamp [s]."""
     return (stamps - origin(run)) / SECOND
 
@@ -112,7 +115,7 @@ def motion(run: Run, coordinate: str) -> Motion:
         return Motion(*[np.empty(0)] * 5)
     if coordinate not in desired.names or coordinate not in measured.names:
         return Motion(*[np.empty(0)] * 5)
-    stamps, i, j = np.intersect1d(desired.stamps, measured.stamps, return_indices=True)
+    stamps, i, j = _common(desired.stamps, measured.stamps)
     position = measured.column("position", coordinate)[j] - _noise(run, coordinate, stamps)
     velocity = measured.column("velocity", coordinate)[j]
     if np.isnan(velocity).all():  # not measured: what the denoiser makes of it
@@ -135,7 +138,19 @@ def motion(run: Run, coordinate: str) -> Motion:
     )
 
 
-def _noise(run: Run, coordinate: str, stamps: NDArray[np.int64]) -> Array | float:
+Where = NDArray[np.intp] | slice
+"""Some entries of an array."""
+
+
+def _common(a: Stamps, b: Stamps) -> tuple[Stamps, Where, Where]:
+    """Stamps that are in both, ascending, and where they are; mostly both have all of them."""
+    if len(a) == len(b) and bool((a == b).all()) and bool((a[1:] > a[:-1]).all()):
+        return a, slice(None), slice(None)
+    stamps, i, j = np.intersect1d(a, b, return_indices=True)
+    return stamps, i, j
+
+
+def _noise(run: Run, coordinate: str, stamps: Stamps) -> Array | float:
     """The noise that the simulator added to the position: errors are those of the plant itself."""
     if not parameter_number(run, PlantSimulator.name, "noise.position"):
         return 0.0
@@ -146,11 +161,11 @@ def _noise(run: Run, coordinate: str, stamps: NDArray[np.int64]) -> Array | floa
     return noise
 
 
-def _estimated_velocity(run: Run, coordinate: str, stamps: NDArray[np.int64]) -> Array:
+def _estimated_velocity(run: Run, coordinate: str, stamps: Stamps) -> Array:
     estimate = run.topics.get("state_estimate")
     if estimate is None:
         return np.full(len(stamps), np.nan)
-    _, i, j = np.intersect1d(stamps, estimate.stamps, return_indices=True)
+    _, i, j = _common(stamps, estimate.stamps)
     found = np.full(len(stamps), np.nan)
     found[i] = estimate.column("velocities", coordinate)[j]
     return found

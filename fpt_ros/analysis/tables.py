@@ -19,6 +19,10 @@ QUANTITIES = {
     "rms": "error, rms of all",
     "effort": "effort, rms",
     "chatter": "chatter, mean |r(k) - r(k-1)|",
+    "missed_deadlines": "missed deadlines",
+    "latency_median_ms": "latency, median [ms]",
+    "latency_p99_ms": "latency, p99 [ms]",
+    "latency_max_ms": "latency, max [ms]",
 }
 """What the rows of :func:`~fpt_ros.analysis.metrics.comparison` are called."""
 
@@ -115,6 +119,8 @@ def _cell(row: Row, column: int, base: int) -> Cell:
     value, ratio = row.values[column], row.ratios[column]
     if value is None:
         return Cell("", "", None)
+    if isinstance(value, int):
+        return Cell(str(value), "", None)
     if ratio is None or base == column:
         return Cell(number_text(value), "", None)
     error = row.quantity not in ("effort", "chatter")

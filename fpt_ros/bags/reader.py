@@ -5,10 +5,12 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from fpt_ros.bags import parameter_text
+from fpt_ros.bags import diagnostics, parameter_text
 from fpt_ros.bags.scan import CUT, DAMAGED, Item, Scan, Source, files
 from fpt_ros.bags.writer import END, INFO
 from fpt_ros.errors import BadInput
+from fpt_ros.loop.latency import Latencies
+from fpt_ros.loop.plant_simulator import PlantSimulator
 from fpt_ros.loop.run import Collector, Run
 from fpt_ros.messages.cdr import Codec, MalformedMessage
 from fpt_ros.messages.frames import SECOND
@@ -85,6 +87,7 @@ def read_run(path: Path) -> Run:
     """
     recording, collector = _Recording(path), Collector()
     decoders: dict[Source, tuple[Topic, Codec] | None] = {}
+    latency: Latencies | None = None
     for source, stamp, data in recording.messages():
         if source not in decoders:
             decoders[source] = _decoder(source, recording)
@@ -99,12 +102,14 @@ def read_run(path: Path) -> Run:
             if any(len(vector) != count for vector in frame[2:]):
                 raise _malformed(path, source, stamp)
             collector(topic, frame)
+        elif source == Source(diagnostics.TOPIC, diagnostics.TYPE):
+            latency = _latency(recording, stamp, data) or latency
     _namespace(recording)
     if recording.whole and not any(decoders.values()):
         loop = ", ".join(BY_NAME)
         raise BadInput(f"{path} holds no messages on the loop's topics: {loop}")
     assert recording.parameters is not None
-    return Run(recording.info, recording.parameters, collector.topics())
+    return Run(recording.info, recording.parameters, collector.topics(), latency)
 
 
 def info(path: Path) -> dict[str, object]:
@@ -153,6 +158,17 @@ def _decoder(source: Source, recording: _Recording) -> tuple[Topic, Codec] | Non
     if topic is None or (namespace is not None and _prefix(source) != namespace.strip("/")):
         return None
     return topic, Codec(topic)
+
+
+def _latency(recording: _Recording, stamp: int, data: bytes) -> Latencies | None:
+    """What the plant simulator of this loop tells in a message of /diagnostics."""
+    namespace = recording.info.get("namespace", "").strip("/")
+    node = f"{namespace}/{PlantSimulator.name}" if namespace else PlantSimulator.name
+    try:
+        return diagnostics.latencies(data, node)
+    except BadInput as error:
+        where = f"{diagnostics.TOPIC} at {stamp / SECOND:g} s"
+        raise BadInput(f"{recording.path}: {where}: {error}") from error
 
 
 def _loop_topic(source: Source) -> Topic | None:

@@ -3,6 +3,7 @@
 from dataclasses import dataclass
 from functools import cache
 from io import StringIO
+from typing import Any
 
 from rosbags.typesys import Stores, get_typestore
 from rosbags.typesys.store import Typestore
@@ -43,6 +44,16 @@ def schema(type: str) -> Schema:
     if type not in store.types:
         raise BadInput(f"cannot record '{type}': it has to be a type like sensor_msgs/msg/Imu")
     return Schema(type, store.generate_msgdef(type, ros_version=2)[0], store.hash_rihs01(type))
+
+
+def decode(type: str, data: bytes) -> Any:
+    """A serialised message as an object with the fields of its type.
+
+    Raises:
+        BadInput: not one of Jazzy's common types.
+        Exception: of rosbags, where the bytes are not of this type.
+    """
+    return _store().deserialize_cdr(data, schema(type).type)
 
 
 def offered_qos(topic: str, depth: int | None = None) -> list[dict[str, object]]:

@@ -13,7 +13,13 @@ if TYPE_CHECKING:
 Name = Annotated[
     str, typer.Argument(metavar="NAME", help="An experiment (fpt list), or a parameter file.")
 ]
-Variant = Annotated[str, typer.Option(help="A variant of the experiment (fpt list).")]
+Variant = Annotated[
+    str,
+    typer.Option(
+        metavar="NAME|FILE.yaml",
+        help="A variant of the experiment (fpt list), or an overlay file, as fpt tune writes it.",
+    ),
+]
 Settings = Annotated[
     list[str] | None,
     typer.Option("--set", metavar="NODE.PARAM=VALUE", help="Change a parameter; repeatable."),

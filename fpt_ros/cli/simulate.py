@@ -46,7 +46,7 @@ def simulate(
     failure: RunFailed | Interrupted | None = None
     started = perf_counter()
     engine = Engine(experiment.loop())
-    title = f"{experiment.name} {variant}"
+    title = f"{experiment.name} {experiment.variant}"
     with (
         interrupts() as interrupted,
         EngineRecording(record, experiment, engine) as recording,

@@ -71,17 +71,17 @@ def sweep(
     from fpt_ros.cli.simulate import interrupts
     from fpt_ros.errors import Interrupted
     from fpt_ros.sweep import sweep as sweeps
+    from fpt_ros.sweep.definition import define
+    from fpt_ros.sweep.directory import open_directory
     from fpt_ros.sweep.executor import local_workers, pool
 
     local_workers(workers)
-    asked = sweeps.define(
-        name, variant, set_ or (), duration, grid or (), random, seed, metric or ()
-    )
-    title = f"{asked.experiment.name} {variant}"
+    asked = define(name, variant, set_ or (), duration, grid or (), random, seed, metric or ())
+    title = f"{asked.experiment.name} {asked.experiment.variant}"
     directory = out or Path(f"{asked.experiment.name}-sweep")
     started = perf_counter()
     with interrupts() as interrupted, pool(scheduler, workers) as executor:
-        resumed = sweeps.open_directory(asked, directory)
+        resumed = open_directory(asked, directory)
         known: list[int] = []  # runs that were there before
         with progress(title, asked.size) as bar:
 
@@ -98,13 +98,14 @@ def sweep(
     seconds = perf_counter() - started
     with journal:
         from fpt_ros.sweep.maps import draw
+        from fpt_ros.sweep.table import write_tables
 
-        table, binary = sweeps.write_tables(asked, journal, directory)
+        table, binary = write_tables(asked, journal, directory)
         onset, pictures = draw(asked, binary, directory)
         made = asked.size - known[0]
         result: dict[str, Any] = {
             "experiment": asked.experiment.name,
-            "variant": variant,
+            "variant": asked.experiment.variant,
             "runs": asked.size,
             "made": made,
             "resumed": resumed,
@@ -121,7 +122,7 @@ def sweep(
 
 def _print(result: dict[str, Any], title: str, binary: Path, json: bool) -> None:
     from fpt_ros.cli.output import console, print_json
-    from fpt_ros.sweep.maps import best
+    from fpt_ros.sweep.results import best
 
     result["best"] = best(binary)
     if json:

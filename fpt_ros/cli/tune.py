@@ -1,5 +1,6 @@
 """``fpt tune``."""
 
+import shlex
 import sys
 from pathlib import Path
 from time import perf_counter
@@ -53,13 +54,17 @@ def tune(
     out: Out = None,
     json: Json = False,
 ) -> None:
-    """Find good parameters under limits on effort and chatter; write them as a variant's overlay.
+    """Find good parameters under limits on effort and chatter; write them as an overlay file.
+
+    The file is used with --variant FILE.yaml, which the last line of the output spells out.
 
     Example: fpt tune tora --over fpt_deformer.A,trajectory_generator.lambda --limit chatter=0.02
     """
     from fpt_ros.cli.simulate import interrupts
     from fpt_ros.errors import BadInput, Interrupted
     from fpt_ros.sweep import tune as tuning
+    from fpt_ros.sweep.executor import keep_memory
+    from fpt_ros.sweep.overlay import check_overlay, write_overlay
 
     if trials < 1:
         raise BadInput(f"--trials {trials} is not valid, it takes 1 or more")
@@ -69,7 +74,8 @@ def tune(
         name, variant, set_ or (), duration, over or (), metric or ("rms_settled",), limit or ()
     )
     path = out or _default_out(name)
-    tuning.check_overlay(path)
+    check_overlay(path)
+    keep_memory()
     started = perf_counter()
     with interrupts() as interrupted, _progress(f"tuning {name}", trials) as bar:
 
@@ -79,25 +85,32 @@ def tune(
                 raise Interrupted(f"interrupted after {done} of {trials} runs, nothing is written")
 
         found = tuning.search(task, trials, seed, look)
-    tuning.write_overlay(task, found, path)
-    result = {**_result(task, found), "wall_time": perf_counter() - started, "overlay": str(path)}
+    write_overlay(task, found, path)
+    result = {
+        **_result(task, found),
+        "wall_time": perf_counter() - started,
+        "overlay": str(path),
+        "use": shlex.join(["fpt", "simulate", name, "--variant", str(path)]),
+    }
     if json:
         from fpt_ros.cli.output import print_json
 
         print_json(result)
         return
-    _print(result, name)
+    _print(result)
 
 
 def _default_out(name: str) -> Path:
+    from fpt_ros.loop.experiment import is_path
+
     given = Path(name)
-    if name.endswith((".yaml", ".yml")) or "/" in name:
-        return given.with_name(f"{given.stem}.tuned.yaml")
-    return Path(f"{name}.tuned.yaml")
+    return (
+        given.with_name(f"{given.stem}.tuned.yaml") if is_path(name) else Path(f"{name}.tuned.yaml")
+    )
 
 
 def _result(task: "Task", found: "Result") -> dict[str, Any]:
-    from fpt_ros.sweep.run_one import metric
+    from fpt_ros.sweep.metric import metric
 
     shown = list(dict.fromkeys([*task.metrics, *task.limits, "chatter"]))
     return {
@@ -119,7 +132,7 @@ def _result(task: "Task", found: "Result") -> dict[str, Any]:
     }
 
 
-def _print(result: dict[str, Any], name: str) -> None:
+def _print(result: dict[str, Any]) -> None:
     from rich.table import Table
 
     from fpt_ros.cli.output import console
@@ -129,12 +142,9 @@ def _print(result: dict[str, Any], name: str) -> None:
         numbers = (row["before"], row["after"], row.get("limit"))
         table.add_row(what, *("" if each is None else f"{each:.6g}" for each in numbers))
     console().print(table)
-    path = Path(result["overlay"])
     print(f"{result['trials']} runs in {result['wall_time']:.1f} s")
-    where = "" if "/" in name or name.endswith((".yaml", ".yml")) else f" beside {name}.yaml"
-    variant = path.stem.partition(".")[2]
-    use = f"   ({where.strip() + ': ' if where else ''}fpt simulate {name} --variant {variant})"
-    console().print(f"overlay: {path}{use if variant else ''}", soft_wrap=True)
+    print(f"overlay: {result['overlay']}")
+    print(f"run it:  {result['use']}")
 
 
 def _progress(what: str, total: int) -> Any:

@@ -13,8 +13,14 @@ from fpt_ros.messages.topics import COMMAND, JOINT_STATES, STATE_ESTIMATE
 from fpt_ros.parameters import Parameter, Values, flag, word
 
 METHOD = Parameter(
-    "method", "filter, by its registered name; none: differences", "none", live=False
+    "method",
+    "filter, by its registered name; none: differences; not given, an experiment with noise has "
+    "kalman_bank",
+    "none",
+    live=False,
 )
+FILTER_OF_NOISE = "kalman_bank"
+"""Chosen for an experiment whose plant has noise and that names none."""
 
 SYNCHRONISED = Parameter(
     "synchronised",

@@ -1,15 +1,15 @@
 """Experiments: parameter files, their variants, and what was changed on the command line."""
 
 from collections.abc import Callable, Iterable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import partial
 from pathlib import Path
 from typing import cast
 
-from fpt_ros.error_relaxation import RELAXATIONS
 from fpt_ros.errors import BadInput
 from fpt_ros.loop import description, parameter_file
-from fpt_ros.loop.denoiser import SYNCHRONISED, Denoiser
+from fpt_ros.loop.denoiser import FILTER_OF_NOISE, METHOD, SYNCHRONISED, Denoiser
+from fpt_ros.loop.fit import check_fit
 from fpt_ros.loop.fpt_deformer import FptDeformer
 from fpt_ros.loop.locate import config_directory
 from fpt_ros.loop.parameter_file import ParameterFile
@@ -18,9 +18,7 @@ from fpt_ros.loop.plant_simulator import PlantSimulator
 from fpt_ros.loop.stage import CYCLE_TIME, Stage
 from fpt_ros.loop.stages import STAGES
 from fpt_ros.loop.trajectory_generator import TrajectoryGenerator
-from fpt_ros.loop.workspace import check_workspace
-from fpt_ros.parameters import Parameter, Value, Values, resolve, word
-from fpt_ros.tuning import COEFFICIENTS
+from fpt_ros.parameters import Parameter, Value, Values, resolve
 
 BASE = "adaptive"
 """Name of the variant that is the file itself, without an overlay."""
@@ -54,11 +52,13 @@ class Experiment:
     Attributes:
         name, variant: what it goes by.
         nodes: parameters by node; the recorder's section is the description.
+        source: words that name it on the command line, as they were given.
     """
 
     name: str
     variant: str
     nodes: dict[str, dict[str, Value]] = field(repr=False)
+    source: tuple[str, ...] = field(default=(), repr=False, compare=False)
 
     @property
     def about(self) -> dict[str, Value]:
@@ -78,13 +78,12 @@ class Experiment:
             ParameterTuner(self.nodes[ParameterTuner.name]),
             FptDeformer(self.nodes[FptDeformer.name]),
         )
-        _check_fit(loop)
+        check_fit(loop)
         return loop
 
     def with_values(self, node: str, **changes: Value) -> "Experiment":
         """The same experiment with some parameters of a node changed."""
-        nodes = {**self.nodes, node: {**self.nodes[node], **changes}}
-        return Experiment(self.name, self.variant, nodes)
+        return replace(self, nodes={**self.nodes, node: {**self.nodes[node], **changes}})
 
     def for_graph(self, realtime: bool) -> "Experiment":
         """The same experiment, its nodes told what only a graph of them has to know."""
@@ -93,7 +92,7 @@ class Experiment:
             values["realtime"] = realtime
             if CYCLE_TIME.name in values:
                 values[CYCLE_TIME.name] = self.nodes[PlantSimulator.name]["dt"]
-        return Experiment(self.name, self.variant, nodes)
+        return replace(self, nodes=nodes)
 
     def write(self, path: Path) -> None:
         """Write it as one parameter file for all nodes."""
@@ -122,7 +121,8 @@ def load(
 
     Args:
         name: of an experiment of the package, or the path of a parameter file.
-        variant: its overlay ``NAME.VARIANT.yaml``; ``adaptive``: none.
+        variant: its overlay ``NAME.VARIANT.yaml``; ``adaptive``: none; or the path of an overlay
+            file of any name, whose stem is then the variant's name.
         settings: ``NODE.PARAM=VALUE`` each.
         duration: length of the run [s].
         seed: random seed.
@@ -130,7 +130,7 @@ def load(
     Raises:
         BadInput: anything that is not valid, in one line that says what is.
     """
-    path = _path_of(name)
+    path, source = _path_of(name), (name, *(("--variant", variant) if variant != BASE else ()))
     base, overlay = parameter_file.read(path), ParameterFile()
     for section in SECTIONS:
         if section not in base.nodes:
@@ -140,6 +140,9 @@ def load(
         overlay_path = _variant_path(path, variant)
         overlay = parameter_file.read(overlay_path)
         _check_nodes(overlay_path, overlay)
+        if is_path(variant):
+            _check_owner(overlay_path, overlay, path.stem)
+            variant = overlay_path.stem
     file = base.overlay(overlay)
     changes = [_setting(text) for text in settings]
     if duration is not None:
@@ -150,6 +153,7 @@ def load(
         _apply(file, node, parameter, value)
     file.nodes[description.NODE].update(experiment=path.stem, variant=variant)
     _share_synchronised(file)
+    _filter_noise(file)
     in_loop = in_the_loop(file.nodes[ParameterTuner.name])
     for node, parameter, value in changes:
         if parameter == "await_tuning" and value != in_loop:
@@ -160,7 +164,7 @@ def load(
     _check_shared(path, file, base)
     explicit = {(node, parameter) for node, parameter, _ in changes}
     nodes = {node: _resolve(node, file, base, explicit) for node in SECTIONS}
-    experiment = Experiment(path.stem, variant, nodes)
+    experiment = Experiment(path.stem, variant, nodes, source)
     experiment.loop()
     return experiment
 
@@ -184,6 +188,14 @@ def _share_synchronised(file: ParameterFile) -> None:
         file.shared[name] = given
 
 
+def _filter_noise(file: ParameterFile) -> None:
+    """Noisy measurements are filtered where nobody has chosen how."""
+    plant = {**file.shared, **file.nodes[PlantSimulator.name]}
+    noisy = any(plant.get(f"noise.{kind}") for kind in ("position", "velocity"))
+    if noisy and METHOD.name not in {**file.shared, **file.nodes[Denoiser.name]}:
+        file.nodes[Denoiser.name][METHOD.name] = FILTER_OF_NOISE
+
+
 def _check_nodes(path: Path, file: ParameterFile) -> None:
     """Every section of a file is a node's."""
     for node in file.nodes:
@@ -205,8 +217,25 @@ def _check_shared(path: Path, file: ParameterFile, base: ParameterFile) -> None:
             )
 
 
+def is_path(text: str) -> bool:
+    """Whether a word is the path of a parameter file, and no name."""
+    return text.endswith((".yaml", ".yml")) or "/" in text
+
+
+def _check_owner(path: Path, overlay: ParameterFile, experiment: str) -> None:
+    """An overlay given by its path is of this experiment.
+
+    What it says itself (``recorder.experiment``) counts, otherwise its name, ``NAME.VARIANT.yaml``.
+    """
+    owner = overlay.nodes.get(description.NODE, {}).get("experiment")
+    if owner is None and path.stem.partition(".")[0] in available():
+        owner = path.stem.partition(".")[0]
+    if owner is not None and owner != experiment:
+        raise BadInput(f"{path} is of the experiment {owner}, not of {experiment}")
+
+
 def _path_of(name: str) -> Path:
-    if name.endswith((".yaml", ".yml")) or "/" in name:
+    if is_path(name):
         return Path(name)
     if name not in available():
         raise BadInput(f"no experiment '{name}': there are {', '.join(available())}")
@@ -214,6 +243,8 @@ def _path_of(name: str) -> Path:
 
 
 def _variant_path(path: Path, variant: str) -> Path:
+    if is_path(variant):
+        return Path(variant)
     found = [p.stem.partition(".")[2] for p in sorted(path.parent.glob(f"{path.stem}.*.yaml"))]
     if variant not in found:
         valid = ", ".join([BASE, *found])
@@ -266,38 +297,3 @@ def _resolve(
 
 def _declared(parameters: Callable[[Values], tuple[Parameter, ...]], given: Values) -> set[str]:
     return {parameter.name for parameter in parameters(given)}
-
-
-def _check_fit(loop: Loop) -> None:
-    """The stages are of one plant, and can do what is asked of them."""
-    plant, model = loop.plant.coordinates, loop.deformer.coordinates
-    if model != plant:
-        raise BadInput(
-            f"fpt_deformer.model: {word(loop.deformer.values, 'model')} has the coordinates "
-            f"{', '.join(model)}, the plant {', '.join(plant)}"
-        )
-    loop.deformer.check_controlled(loop.trajectory.controlled)
-    loop.deformer.weights_of(loop.trajectory.controlled)
-    loop.trajectory.locate(plant)
-    order = loop.plant.plant.order
-    name = word(loop.plant.values, "plant")
-    given = loop.denoiser.values["order"]
-    if given != order:
-        raise BadInput(
-            f"denoiser.order: {given} given, the plant {name} answers with order {order}"
-        )
-    relaxation, used = loop.trajectory.relaxation, loop.trajectory.values["error_relaxation"]
-    if relaxation.order != order:
-        fitting = [each for each, one in RELAXATIONS.items() if one.order == order]
-        raise BadInput(
-            f"trajectory_generator.error_relaxation: {used} is for a response of order "
-            f"{relaxation.order}, the plant {name} answers with order {order}: "
-            f"{' or '.join(fitting)}"
-        )
-    tunes = loop.tuner.active and loop.tuner.law.tunes == COEFFICIENTS
-    if tunes and loop.tuner.values["model"] != loop.deformer.values["model"]:
-        raise BadInput(
-            f"parameter_tuner.model: {word(loop.tuner.values, 'model')} is not the deformer's, "
-            f"{word(loop.deformer.values, 'model')}"
-        )
-    check_workspace(loop)

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from fpt_ros import __version__
 from fpt_ros.laws import Vector
 from fpt_ros.loop.experiment import Experiment
+from fpt_ros.loop.latency import Latencies
 from fpt_ros.messages.frames import SECOND, Frame, Names
 from fpt_ros.messages.topics import LOOP_TOPICS, Topic
 from fpt_ros.parameters import Value
@@ -49,11 +50,13 @@ class Run:
         info: experiment, variant, engine, version, complete, reason, ...
         parameters: of every node, complete, as at the start.
         topics: by topic name; one that nobody published is absent.
+        latency: from sensor to command, of a run in real time.
     """
 
     info: Mapping[str, str]
     parameters: Mapping[str, Mapping[str, Value]]
     topics: Mapping[str, Series]
+    latency: Latencies | None = None
 
 
 def describe(experiment: Experiment, engine: str, reason: str) -> dict[str, str]:

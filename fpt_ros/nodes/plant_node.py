@@ -5,9 +5,11 @@ depend on the machine's speed. Real time: the cycle ends when the wall clock say
 command acts, or the safe effort where it is older than ``command_timeout``.
 """
 
+from collections import deque
 from time import monotonic, time_ns
 
 from fpt_ros.errors import RunFailed
+from fpt_ros.loop.latency import HISTOGRAM, LARGEST, MISSED, Histogram
 from fpt_ros.loop.plant_simulator import PlantSimulator
 from fpt_ros.messages.cdr import Codec, MalformedMessage
 from fpt_ros.messages.frames import SECOND, Command
@@ -19,6 +21,9 @@ from fpt_ros.nodes.stage_node import ParameterisedNode
 
 WINDOW = DEPTH * 3 // 4
 """Cycles that the loop may be ahead of the recorder: less than the history that publishers keep."""
+
+REMEMBERED = 1024
+"""Cycles whose command may still come and be timed."""
 
 
 class PlantNode(ParameterisedNode):
@@ -36,10 +41,12 @@ class PlantNode(ParameterisedNode):
         self._stamp = -1
         self._command: Command | None = None
         self._held_back = False
-        self._sent_at = 0.0
+        self._sent_at: deque[float] = deque(maxlen=REMEMBERED)
+        self._timed = -1
         self._next_tick = 0.0
         self._misses = 0
         self._latencies: list[float] = []
+        self._histogram = Histogram()
         self.subscribe_raw(COMMAND.name, COMMAND.type, LATEST, self._on_command)
         if self._awaits_recorder:
             self.subscribe_raw(RECORDED_UNTIL, TIME, 1, self._on_recorded)
@@ -51,7 +58,7 @@ class PlantNode(ParameterisedNode):
 
     def _publish_cycle(self) -> None:
         self._stamp = self._origin + self._cycle * self.stage.cycle_time
-        self._sent_at = monotonic()
+        self._sent_at.append(monotonic())
         self.send(self.stage.measure(self._stamp, self._cycle))
 
     def _on_command(self, data: bytes) -> None:
@@ -61,16 +68,28 @@ class PlantNode(ParameterisedNode):
             self.get_logger().error(f"ignored: {error}", once=True)
             return
         assert isinstance(command, Command)
+        if self._realtime and command.stamp > self._timed:
+            self._time(command.stamp)
         if command.stamp != self._stamp or command is self._command:
             return
-        if self._realtime:
-            self._latencies.append(monotonic() - self._sent_at)
-            if self._cycle == 0 and self._command is None:  # cycle 0 has gone around: start
-                self._next_tick = self.deadline = monotonic() + self.stage.dt
+        if self._realtime and self._cycle == 0 and self._command is None:
+            self._next_tick = self.deadline = monotonic() + self.stage.dt  # it has gone around
         repeated = self._command is not None and self._command.stamp == command.stamp
         self._command = command
         if not self._realtime and not repeated:
             self._end_cycle(command)
+
+    def _time(self, stamp: int) -> None:
+        """Count the latency of the command of a cycle, in time or late."""
+        late = (self._stamp - stamp) // self.stage.cycle_time
+        if not 0 <= late < len(self._sent_at):
+            return  # of another run, or too late to be known
+        if stamp == self._origin:
+            return  # it waits for discovery, and has no deadline
+        self._timed = stamp
+        latency = monotonic() - self._sent_at[-1 - late]
+        self._latencies.append(latency)
+        self._histogram.add(latency)
 
     def on_deadline(self) -> None:
         """Real time: the cycle is over, with or without its command."""
@@ -94,6 +113,8 @@ class PlantNode(ParameterisedNode):
         if self._cycle == self.stage.cycles:
             self.deadline = None
             report_progress(self._cycle)
+            if self._realtime:
+                self._report_last()
             self._held_back = self._awaits_recorder and self._recorded < self._stamp
             self.finished = not self._held_back
         elif self._behind():
@@ -127,15 +148,23 @@ class PlantNode(ParameterisedNode):
                 "domain: use another ROS_DOMAIN_ID or --namespace"
             )
 
+    def _report_last(self) -> None:
+        """Diagnostics of the last cycles, for which no second is left."""
+        since, cycles = self._reported
+        self._publish_diagnostics((self.cycles_done - cycles) / (monotonic() - since))
+
     def health(self) -> tuple[str, dict[str, object]]:
-        """State of the run; in real time misses, and latencies from sensor to command since the
-        last report [ms].
+        """State of the run; in real time misses, and latencies from sensor to command [ms]: of
+        those since the last report, and the distribution of all (:mod:`fpt_ros.loop.latency`).
         """
         t = (self._stamp - self._origin) / SECOND
         values: dict[str, object] = {"time [s]": f"{t:.3f}"}
-        if self._realtime and self._latencies:
+        if self._realtime:
+            values[MISSED] = self._misses
+            values[LARGEST] = f"{1e3 * self._histogram.largest:.3f}"
+            values[HISTOGRAM] = self._histogram.text()
+        if self._latencies:
             ordered, self._latencies = sorted(self._latencies), []
-            values["deadline misses"] = self._misses
             values["latency median [ms]"] = f"{1e3 * ordered[len(ordered) // 2]:.3f}"
             values["latency p99 [ms]"] = f"{1e3 * ordered[int(0.99 * len(ordered))]:.3f}"
             values["latency max [ms]"] = f"{1e3 * ordered[-1]:.3f}"

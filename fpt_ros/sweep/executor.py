@@ -1,6 +1,7 @@
 """Where the runs are made: processes of this machine, or a dask cluster."""
 
 import asyncio
+import ctypes
 import logging
 import multiprocessing
 import os
@@ -18,6 +19,12 @@ from fpt_ros.errors import BadInput, RunFailed
 
 CONNECT = 10.0
 """Seconds that a scheduler has to answer."""
+
+M_TRIM_THRESHOLD, M_MMAP_THRESHOLD = -1, -3
+"""Options of glibc's ``mallopt``."""
+
+LARGEST_KEPT = 32 * 2**20
+"""Bytes of the largest array that is kept; glibc takes no more."""
 
 
 class Pool(ABC):
@@ -69,14 +76,20 @@ class LocalPool(Pool):
         context = multiprocessing.get_context("spawn")
         ours, self._lifeline = context.Pipe(duplex=False)
         self._ours = ours
-        self.executor: Executor = ProcessPoolExecutor(
+        self._processes = ProcessPoolExecutor(
             self._workers, context, initializer=_begin_worker, initargs=(ours,)
         )
+        self.executor: Executor = self._processes
 
     @property
     def slots(self) -> int:
         """Number of processes."""
         return self._workers
+
+    @property
+    def pids(self) -> tuple[int, ...]:
+        """Of the processes that have been started."""
+        return tuple(self._processes._processes)
 
     def repair(self, error: BaseException) -> None:
         """Start new processes where one has died."""
@@ -94,8 +107,21 @@ class LocalPool(Pool):
 
 def _begin_worker(lifeline: Connection) -> None:
     """Leave Ctrl-C to the parent, and end with it."""
+    keep_memory()
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     threading.Thread(target=_end_with, args=(lifeline,), daemon=True).start()
+
+
+def keep_memory() -> None:
+    """Let this process keep what one run frees for the next one.
+
+    glibc would give it back to the system and take it again, a page fault for every 4 kB: a quarter
+    of the time of a run of 16,000 cycles. Where there is another libc it stays as it is.
+    """
+    with suppress(OSError, AttributeError):
+        set_option = ctypes.CDLL(None).mallopt
+        set_option(M_MMAP_THRESHOLD, LARGEST_KEPT)
+        set_option(M_TRIM_THRESHOLD, 8 * LARGEST_KEPT)
 
 
 def _end_with(lifeline: Connection) -> None:

@@ -159,11 +159,13 @@ def _range(where: Target, body: str, random: bool, label: str) -> Axis:
     return Axis(where, start=start, stop=stop, count=count, log=log)
 
 
-@lru_cache(maxsize=64)
 def values(axis: Axis) -> tuple[Value, ...]:
     """All values of an axis, in their order."""
-    if axis.choices:
-        return axis.choices
+    return axis.choices or _range_values(axis)
+
+
+@lru_cache(maxsize=64)
+def _range_values(axis: Axis) -> tuple[Value, ...]:
     if axis.count == 1 or axis.start == axis.stop:
         found = [axis.start] * axis.count
     else:

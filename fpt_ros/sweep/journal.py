@@ -13,8 +13,7 @@ from types import TracebackType
 from typing import Any
 
 from fpt_ros.errors import BadInput
-
-Row = list[Any]
+from fpt_ros.sweep.job import Row
 
 
 class Journal:

@@ -1,7 +1,7 @@
 """The picture of a sweep: curves over one parameter, a map over two, a basin of attraction."""
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -14,13 +14,11 @@ from matplotlib.figure import Figure
 from fpt_ros.analysis import style
 from fpt_ros.errors import BadInput
 from fpt_ros.loop.run import Array
-from fpt_ros.sweep.run_one import COMPLETE
+from fpt_ros.sweep.job import COMPLETE
+from fpt_ros.sweep.results import Table, onset, read
 
 if TYPE_CHECKING:
-    from fpt_ros.sweep.sweep import Sweep
-
-JUMP = 2.0
-"""Chatter that is so many times what it was before is called the onset of chattering."""
+    from fpt_ros.sweep.definition import Sweep
 
 MOST = 6
 """Quantities that a map shows."""
@@ -31,9 +29,6 @@ LOST = "#c9c9d2"
 MARK: style.Style = {"color": style.DEFORMED, "linewidth": 1.6, "linestyle": (0, (4.0, 1.6))}
 
 STATES = ("plant_simulator.initial_position", "plant_simulator.initial_velocity")
-
-Table = Mapping[str, Any]
-"""Columns as arrays."""
 
 
 def draw(
@@ -72,55 +67,6 @@ def draw(
         except OSError as error:
             raise BadInput(f"{directory} cannot be written: {error.strerror}") from error
     return found, paths
-
-
-def read(parquet: Path, columns: Sequence[str]) -> dict[str, Any]:
-    """Some columns of a table of runs."""
-    from pyarrow import parquet as format
-
-    table = format.read_table(parquet, columns=list(dict.fromkeys(columns)))
-    return {name: table[name].to_numpy(zero_copy_only=False) for name in table.column_names}
-
-
-def best(parquet: Path) -> dict[str, dict[str, Any]]:
-    """The complete run with the least value of each settled rms: its value, and where it is."""
-    from pyarrow import parquet as format
-
-    names = format.read_schema(parquet).names
-    inputs = names[1 : names.index("outcome")]
-    metrics = [name for name in names if name.startswith("rms_settled.")]
-    table = read(parquet, [*inputs, "outcome", *metrics])
-    found = {}
-    for metric in metrics:
-        column = np.where(table["outcome"] == COMPLETE, table[metric], np.nan)
-        if not np.isnan(column).all():
-            at = int(np.nanargmin(column))
-            where = {name: table[name][at] for name in inputs}
-            plain = {k: v.item() if hasattr(v, "item") else v for k, v in where.items()}
-            found[metric] = {"value": float(column[at]), "at": plain}
-    return found
-
-
-def onset(table: Table, name: str) -> tuple[float, float] | None:
-    """Last quiet and first chattering value of a parameter.
-
-    Going from the quieter end, it is where the chatter becomes :data:`JUMP` times the median of
-    what it was up to there; section 3.2.2 of the thesis: it jumps. ``None``: nowhere.
-    """
-    if "chatter" not in table:
-        return None
-    x = np.asarray(table[name], dtype=np.float64)
-    known = (table["outcome"] == COMPLETE) & ~np.isnan(table["chatter"])
-    order = np.argsort(x[known], kind="stable")
-    at, chatter = x[known][order], np.asarray(table["chatter"][known][order], dtype=np.float64)
-    if len(at) < 2:
-        return None
-    if chatter[0] > chatter[-1]:
-        at, chatter = at[::-1], chatter[::-1]
-    for i in range(1, len(at)):
-        if chatter[i] > JUMP * float(np.median(chatter[:i])) and at[i] != at[i - 1]:
-            return float(at[i - 1]), float(at[i])
-    return None
 
 
 def _shown(metrics: Sequence[str]) -> list[str]:

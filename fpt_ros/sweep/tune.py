@@ -1,29 +1,20 @@
 """The search for good parameters, under limits on other quantities of the run."""
 
 import math
-import os
 import warnings
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from pathlib import Path
-from typing import TYPE_CHECKING, cast
+from typing import cast
 
 from fpt_ros.errors import BadInput, RunFailed
-from fpt_ros.loop import description, parameter_file
 from fpt_ros.loop.experiment import Experiment, load
-from fpt_ros.parameters import Parameter, Value, Values
-from fpt_ros.sweep.grid import Space, Target, parse, target
-from fpt_ros.sweep.run_one import Job, experiment_at, metric, metrics_of, simulate
-from fpt_ros.sweep.sweep import parameter_of
-
-if TYPE_CHECKING:
-    from optuna import Trial
-
-HEADER = "# Tuned by fpt tune"
-"""First words of the files that are written here, and so may be written again."""
-
-WIDTH = 10.0
-"""A range that is not given goes from the present value over it to the present value times it."""
+from fpt_ros.parameters import Value
+from fpt_ros.sweep.grid import Space, parse
+from fpt_ros.sweep.ground import experiments_of
+from fpt_ros.sweep.job import Job
+from fpt_ros.sweep.knob import OVER_FORM, Knob, read_knob
+from fpt_ros.sweep.metric import metric, metrics_of
+from fpt_ros.sweep.run_one import simulate
 
 LOST = 1e12
 """The score of a run that is not complete; less so where it lasted longer."""
@@ -31,43 +22,7 @@ LOST = 1e12
 STARTUP = 12
 """Random trials before the sampler begins to learn."""
 
-DERIVED = frozenset(("experiment", "variant", "await_tuning"))
-"""Parameters that the loader works out itself."""
-
-OVER_FORM = "--over takes NODE.PARAM or NODE.PARAM=LOW:HIGH each, as in fpt_deformer.A=-4:-0.05"
 LIMIT_FORM = "--limit takes METRIC=VALUE each, as in chatter=0.02,effort.q1=200"
-
-
-@dataclass(frozen=True)
-class Knob:
-    """A parameter that is tuned, within [low, high]."""
-
-    target: Target
-    low: float
-    high: float
-    present: float
-    whole: bool
-
-    @property
-    def log(self) -> bool:
-        """Whether it is searched in equal ratios: ends of one sign that are far apart."""
-        low, high = sorted((abs(self.low), abs(self.high)))
-        return self.low * self.high > 0.0 and high >= 5.0 * low and not self.whole
-
-    def suggest(self, trial: "Trial") -> Value:
-        """A value for a trial."""
-        name = str(self.target)
-        if self.whole:
-            return trial.suggest_int(name, int(self.low), int(self.high))
-        if self.log:
-            low, high = sorted((abs(self.low), abs(self.high)))
-            size = trial.suggest_float(name, low, high, log=True)
-            return math.copysign(size, self.low)
-        return trial.suggest_float(name, self.low, self.high)
-
-    def inner(self, value: float) -> float:
-        """What :meth:`suggest` draws for a value."""
-        return abs(value) if self.log else int(value) if self.whole else value
 
 
 @dataclass(frozen=True)
@@ -133,7 +88,7 @@ def define(
         if not (equals and math.isfinite(value) and value > 0.0):
             raise BadInput(f"--limit {text}: {LIMIT_FORM}")
         bounds.update(dict.fromkeys(metrics_of(loop, [of.strip()]), value))
-    knobs = tuple(_knob(text, experiment) for text in _parts(over))
+    knobs = tuple(read_knob(text, experiment) for text in _parts(over))
     if not knobs:
         raise BadInput(f"nothing is to be tuned: {OVER_FORM}")
     if len({str(knob.target) for knob in knobs}) < len(knobs):
@@ -182,110 +137,15 @@ def search(task: Task, trials: int, seed: int, progress: Callable[[int, float], 
         progress(number + 1, best)
     if best_point is None:
         raise RunFailed(_nothing(task, trials, nearest))
-    experiment, loop = experiment_at(task.job, best_point)
+    experiment, loop = experiments_of(task.job).at(best_point)
     found = {str(k.target): cast("float", v) for k, v in zip(task.knobs, best_point, strict=True)}
     after = simulate(experiment, loop)
     assert before is not None
     return Result(experiment, before, after, present, found, trials)
 
 
-def write_overlay(task: Task, found: Result, path: Path) -> None:
-    """Write what differs from the base file as the overlay of a variant.
-
-    Raises:
-        BadInput: it cannot be written, or another file is there.
-    """
-    check_overlay(path)
-    job = task.job
-    base = load(job.name)
-    changed: dict[str, dict[str, Value]] = {}
-    for node, values in found.experiment.nodes.items():
-        own = _different(base.nodes[node], values)
-        if own:
-            changed[node] = own
-    metrics = ", ".join(task.metrics)
-    limits = "".join(f", {name} <= {value:g}" for name, value in task.limits.items())
-    note = f"{found.trials} runs for the least {metrics}{limits}"
-    changed.setdefault(description.NODE, {})["shows"] = f"tuned: {note}"
-    half = path.with_name(f".{path.name}")
-    try:
-        parameter_file.write(half, changed)
-        text = half.read_text(encoding="utf-8")
-        half.write_text(f"{HEADER}: {note}.\n{text}", encoding="utf-8")
-        half.replace(path)
-    except OSError as error:
-        raise BadInput(f"--out {path} cannot be written: {error.strerror}") from error
-
-
-def check_overlay(path: Path) -> None:
-    """A file can be written at ``path``.
-
-    Raises:
-        BadInput: its folder does not exist or cannot be written, or a file is there that
-            ``fpt tune`` has not made.
-    """
-    folder = path.absolute().parent
-    if not folder.is_dir() or not os.access(folder, os.W_OK):
-        raise BadInput(f"--out {path} cannot be written: give a folder that exists and is yours")
-    if path.suffix not in (".yaml", ".yml") or path.is_dir():
-        raise BadInput(f"--out {path}: give a file whose name ends in .yaml")
-    if path.exists():
-        try:
-            ours = path.read_text(encoding="utf-8").startswith(HEADER)
-        except (OSError, UnicodeDecodeError):
-            ours = False
-        if not ours:
-            raise BadInput(f"--out {path} exists and is not of fpt tune: give another name")
-
-
-def _different(base: Values, values: Values) -> dict[str, Value]:
-    return {
-        name: value
-        for name, value in values.items()
-        if name not in DERIVED and (name not in base or base[name] != value)
-    }
-
-
 def _parts(texts: Sequence[str]) -> list[str]:
     return [part.strip() for text in texts for part in text.split(",") if part.strip()]
-
-
-def _knob(text: str, experiment: Experiment) -> Knob:
-    _, equals, _ = text.partition("=")
-    where = target(text.partition("=")[0], f"--over {text}: {OVER_FORM}")
-    if where.index is not None:
-        raise BadInput(f"--over {text}: elements of lists cannot be tuned, only numbers")
-    parameter = parameter_of(experiment, where.node, where.name)
-    value = experiment.nodes[where.node][where.name]
-    if parameter.kind not in ("float", "int"):
-        raise BadInput(f"--over {text}: {where} is no number")
-    present = float(cast("float", value))
-    if equals:
-        axis = parse(text, random=True)
-        if axis.choices or axis.log or axis.count:
-            raise BadInput(f"--over {text}: {OVER_FORM}")
-        low, high = sorted((axis.start, axis.stop))
-        whole = parameter.kind == "int"
-        for end in (low, high):
-            parameter.check(int(end) if whole and end == int(end) else end, where.node)
-    elif present == 0.0:
-        raise BadInput(f"--over {text}: {where} is 0, so a range has to be given; {OVER_FORM}")
-    else:
-        low, high = sorted((present / WIDTH, present * WIDTH))
-        low, high = _within(parameter, low, high)
-    if not low < high:
-        raise BadInput(f"--over {text}: the range is empty; {OVER_FORM}")
-    return Knob(where, low, high, present, parameter.kind == "int")
-
-
-def _within(parameter: Parameter, low: float, high: float) -> tuple[float, float]:
-    low = max(low, parameter.minimum)
-    if low <= parameter.above:
-        low = math.nextafter(parameter.above, math.inf)
-    high = min(high, parameter.maximum)
-    if parameter.kind == "int":
-        return float(math.ceil(low)), float(math.floor(high))
-    return low, high
 
 
 def _typed(knob: Knob, value: float) -> Value:
@@ -295,7 +155,7 @@ def _typed(knob: Knob, value: float) -> Value:
 def _result(task: Task, point: tuple[Value, ...]) -> Mapping[str, object] | None:
     """The summary of a run; ``None`` where the parameters do not go together."""
     try:
-        return simulate(*experiment_at(task.job, point))
+        return simulate(*experiments_of(task.job).at(point))
     except BadInput:
         return None
 

@@ -1,3 +1,5 @@
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -5,6 +7,7 @@ from fpt_ros.analysis import decimate, style
 from fpt_ros.analysis.captions import CAPTIONS
 from fpt_ros.analysis.figures import charts
 from fpt_ros.analysis.labels import labels_of
+from fpt_ros.loop.latency import EDGES, Latencies
 from fpt_ros.loop.run import Run, Series
 
 TORA = ["tracking", "tracking_error", "phase_trajectories", "responses", "responses_zoom"]
@@ -131,7 +134,10 @@ def test_topics_of_different_lengths_are_drawn(make):
 
 
 def test_captions_exist_for_every_figure_and_every_figure_has_its_name(make):
-    found = charts([make("vdp_rfpt", duration=1.0), make("tora", duration=1.0)])
+    counts = [0] * (len(EDGES) + 1)
+    counts[9] = 3
+    timed = replace(make("tora", duration=1.0), latency=Latencies(tuple(counts), 1e-5, 0, 4))
+    found = charts([make("vdp_rfpt", duration=1.0), timed])
     assert list(found) == list(CAPTIONS)
     assert all(chart.name == name and chart.caption for name, chart in found.items())
 

@@ -11,11 +11,13 @@ from hypothesis import strategies as st
 from mcap.reader import make_reader
 from mcap.writer import Writer
 from recorded_run import INFO, Recorded
+from rosbags.typesys import Stores, get_typestore
 
 from fpt_ros.bags import reader
 from fpt_ros.bags.schemas import schema
 from fpt_ros.bags.writer import BagWriter
 from fpt_ros.errors import BadInput
+from fpt_ros.loop.latency import CYCLES, HISTOGRAM, LARGEST, MISSED
 from fpt_ros.loop.run import Run, Series
 from fpt_ros.messages.cdr import Codec
 from fpt_ros.messages.frames import Command, Desired, JointStates
@@ -95,6 +97,74 @@ def test_namespace_and_time_sharing(tmp_path: Path) -> None:
     about = reader.info(path)
     assert about["namespace"] == "/a/b"
     assert about["topics"]["/a/b/tuning"] == {"type": JOINT_STATE, "messages": 0}  # type: ignore[index]
+
+
+DIAGNOSTICS = "diagnostic_msgs/msg/DiagnosticArray"
+
+
+def told(node: str, **values: object) -> bytes:
+    """A message on /diagnostics, written by rosbags."""
+    store = get_typestore(Stores.ROS2_JAZZY)
+    types = store.types
+    stamp = types["builtin_interfaces/msg/Time"](sec=1, nanosec=0)
+    pair = types["diagnostic_msgs/msg/KeyValue"]
+    status = types["diagnostic_msgs/msg/DiagnosticStatus"](
+        level=0,
+        name=node,
+        message="cycle",
+        hardware_id="fpt_ros",
+        values=[pair(key=key, value=str(value)) for key, value in values.items()],
+    )
+    header = types["std_msgs/msg/Header"](stamp=stamp, frame_id="")
+    return bytes(
+        store.serialize_cdr(types[DIAGNOSTICS](header=header, status=[status]), DIAGNOSTICS)
+    )
+
+
+def timed(histogram: str, missed: int = 0, cycles: int = 9) -> dict[str, object]:
+    return {HISTOGRAM: histogram, LARGEST: "7.5", MISSED: missed, CYCLES: cycles}
+
+
+@pytest.mark.parametrize("namespace", ["/", "/robot1"])
+def test_the_last_word_of_the_plant_on_its_latencies(tmp_path: Path, namespace: str) -> None:
+    path, inside = tmp_path / "bag", namespace.rstrip("/")
+    plant = f"{inside}/plant_simulator".lstrip("/")
+    with BagWriter(path, {"node": {"a": 1}}, {"namespace": namespace}) as bag:
+        bag.write(f"{inside}/joint_states", JOINT_STATE, 0, message(0))
+        for data in (
+            told(plant, **timed("0.3162:3", 1, 5)),
+            told(plant, **timed("0.3162:8 0.3981:2", 4, 14)),
+            told("other/plant_simulator", **timed("0.01:1")),
+            told("denoiser", cycles=3),
+        ):
+            bag.write("/diagnostics", DIAGNOSTICS, 0, data)
+    found = reader.read_run(path).latency
+    assert found is not None
+    assert (found.total, found.missed, found.cycles, found.largest) == (10, 4, 14, 7.5e-3)
+    assert found.quantile(0.5) == pytest.approx(10**-3.5, rel=0.06)
+    assert found.quantile(0.99) == pytest.approx(10**-3.4, rel=0.06)
+
+
+def test_in_lockstep_there_are_no_latencies(recorded: Recorded) -> None:
+    assert reader.read_run(recorded.directory).latency is None
+
+
+@pytest.mark.parametrize(
+    "data",
+    [
+        HISTOGRAM.encode(),
+        told("plant_simulator", **timed("nothing")),
+        told("plant_simulator", **{**timed("0.3:1"), CYCLES: "many"}),
+    ],
+)
+def test_diagnostics_that_are_none(tmp_path: Path, data: bytes) -> None:
+    path = tmp_path / "bag"
+    with BagWriter(path, {"node": {"a": 1}}, {}) as bag:
+        bag.write("/joint_states", JOINT_STATE, 0, message(0))
+        bag.write("/diagnostics", DIAGNOSTICS, 0, data)
+    with pytest.raises(BadInput, match="/diagnostics at 0 s: ") as caught:
+        reader.read_run(path)
+    assert "\n" not in str(caught.value)
 
 
 def test_two_loops_in_a_bag(tmp_path: Path) -> None:

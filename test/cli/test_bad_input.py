@@ -11,6 +11,18 @@ CASES = [
         "tora has no variant 'x': it has adaptive, chatter, ",
     ),
     (["run", "tora", "--variant", "x"], "tora has no variant 'x': it has adaptive, chatter, "),
+    *(
+        ([command, "tora", "--variant", "none.yaml"], "none.yaml cannot be read: No such file")
+        for command in ("simulate", "run", "gain")
+    ),
+    (
+        ["sweep", "tora", "--variant", "none.yaml", "--grid", "fpt_deformer.A=-1,-2"],
+        "none.yaml cannot be read: No such file",
+    ),
+    (
+        ["tune", "tora", "--variant", "none.yaml", "--over", "fpt_deformer.A"],
+        "none.yaml cannot be read: No such file",
+    ),
     (["simulate", "tora", "--set", "foo.A=1"], "there is no node 'foo': there are plant_simulator"),
     (
         ["simulate", "tora", "--set", "fpt_deformer.Q=1"],

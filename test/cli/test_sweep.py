@@ -2,6 +2,7 @@
 
 import json
 import os
+import shlex
 import signal
 import subprocess
 import time
@@ -164,10 +165,36 @@ def test_folders_of_others(tmp_path):
     assert "is of another sweep: its variant is adaptive, not strong" in done.stderr
 
 
-def test_tune(tmp_path):
+def test_tune_tells_how_its_overlay_is_used(tmp_path):
+    """The command that it ends with gives the run that was found, and its recording says so."""
     arguments = ("tune", "tora", "--over", "fpt_deformer.A", "--limit", "chatter=0.02")
     result = fpt_json(*arguments, "--trials", 15, "--duration", 6, cwd=tmp_path)
     assert [path.name for path in tmp_path.iterdir()] == ["tora.tuned.yaml"]
     assert result["metrics"]["chatter"]["after"] <= 0.02
     settled = result["metrics"]["rms_settled.q3"]
     assert settled["after"] < settled["before"]
+    program, *words = shlex.split(result["use"])
+    assert (program, words) == ("fpt", ["simulate", "tora", "--variant", "tora.tuned.yaml"])
+    one = fpt_json(*words, "--record", "bag", cwd=tmp_path)
+    assert one["variant"] == "tora.tuned"
+    assert one["tracking"]["q3"]["rms_settled"] == settled["after"]
+    there = fpt_json("info", "bag", cwd=tmp_path)
+    assert (there["experiment"], there["variant"]) == ("tora", "tora.tuned")
+    found = result["parameters"]["fpt_deformer.A"]["after"]
+    assert there["parameters"]["fpt_deformer"]["A"] == found
+    done = fpt(*arguments, "--variant", "tora.tuned.yaml", "--trials", 1, cwd=tmp_path)
+    assert done.stdout.splitlines()[-1].split(":")[1].strip() == result["use"]
+
+
+def test_a_sweep_over_an_overlay_file(tmp_path):
+    overlay = tmp_path / "soft.yaml"
+    overlay.write_text("/**/trajectory_generator:\n  ros__parameters: {lambda: 4.0}\n")
+    grid = ["--grid", "fpt_deformer.A=-1:-2:2", "--duration", 5, "--workers", 1]
+    result = fpt_json("sweep", "tora", "--variant", "soft.yaml", *grid, cwd=tmp_path)
+    assert result["variant"] == "soft"
+    table = pandas.read_csv(tmp_path / "tora-sweep" / "runs.csv")
+    words = ["--set", "fpt_deformer.A=-2", "--duration", 5]
+    one = fpt_json("simulate", "tora", "--variant", overlay, *words)
+    assert table["rms_settled.q3"][1] == one["tracking"]["q3"]["rms_settled"]
+    plain = fpt_json("simulate", "tora", *words)
+    assert one["tracking"]["q3"]["rms_settled"] != plain["tracking"]["q3"]["rms_settled"]

@@ -26,6 +26,14 @@ def test_cycles_follow_the_wall_clock(tmp_path):
     ]
     assert any("deadline misses" in report for report in reports)
     assert any("latency p99 [ms]" in report for report in reports)
+    told = run.latency
+    assert told is not None
+    assert told.cycles == 1200  # the last report comes with the last cycle
+    assert told.total + told.missed >= 1199  # all but the first came in time, late or never
+    assert told.total <= 1199
+    largest = max(float(r["latency max [ms]"]) for r in reports if "latency max [ms]" in r)
+    assert 1e3 * told.largest == largest
+    assert result["real_time"]["missed_deadlines"] == told.missed
 
 
 def test_late_commands_give_way_to_the_safe_effort():

@@ -6,6 +6,7 @@ import pytest
 
 from fpt_ros.errors import BadInput
 from fpt_ros.loop import experiment, parameter_file
+from fpt_ros.loop.experiment import load
 from fpt_ros.loop.locate import config_directory
 from fpt_ros.loop.parameter_tuner import in_the_loop
 
@@ -158,6 +159,64 @@ def test_a_file_of_ones_own(own):
     assert refused(str(path), "rough") == "mine has no variant 'rough': it has adaptive, gentle"
 
 
+@pytest.mark.parametrize("folder", ["", "deeper"])
+def test_an_overlay_by_its_path_is_the_variant(tmp_path, monkeypatch, folder):
+    """Wherever the file lies and whatever it is called, relative or absolute."""
+    monkeypatch.chdir(tmp_path)
+    path = tmp_path / folder / "precise.yaml"
+    path.parent.mkdir(exist_ok=True)
+    shutil.copy(config_directory() / "vdp_rfpt.fixed_model.yaml", path)
+    by_name = experiment.load("vdp_rfpt", "fixed_model", ["fpt_deformer.A=-0.2"])
+    for given in (str(path), str(path.relative_to(tmp_path))):
+        loaded = experiment.load("vdp_rfpt", given, ["fpt_deformer.A=-0.2"])
+        assert loaded.variant == loaded.about["variant"] == "precise"
+        changed = loaded.with_values("fpt_deformer", A=1.0).for_graph(realtime=True)
+        assert changed.source == ("vdp_rfpt", "--variant", given)
+        loaded.nodes["recorder"]["variant"] = "fixed_model"
+        assert loaded.nodes == by_name.nodes
+
+
+def test_an_overlay_by_its_path_over_a_file_of_ones_own(own, tmp_path):
+    path, _ = own
+    overlay = tmp_path / "any.gentle.yml"
+    overlay.write_text("/**/fpt_deformer:\n  ros__parameters: {A: -0.05}\n")
+    loaded = experiment.load(str(path), str(overlay))
+    assert (loaded.name, loaded.variant) == ("mine", "any.gentle")
+    assert loaded.nodes["fpt_deformer"]["A"] == -0.05
+
+
+@pytest.mark.parametrize(
+    ("file", "text", "reason"),
+    [
+        ("a.yaml", "a: [1,", "is not YAML"),
+        ("a.yaml", "fpt_deformer: 3", "has to hold a map 'ros__parameters'"),
+        ("a.yaml", "foo: {ros__parameters: {A: 1.0}}", "there is no node 'foo', only plant_simul"),
+        ("a.yaml", "fpt_deformer: {ros__parameters: {Q: 1.0}}", "has no parameter 'Q': it has A"),
+        ("a.yaml", "fpt_deformer: {ros__parameters: {K: 3.0}}", "K: 3.0 is not valid"),
+        ("a.yaml", "/**: {ros__parameters: {Q: 1.0}}", "no node has the parameter 'Q'"),
+        (
+            "swing.strong.yaml",
+            "fpt_deformer: {ros__parameters: {A: -1.0}}",
+            "is of the experiment swing, not of tora",
+        ),
+        (
+            "a.yaml",
+            "recorder: {ros__parameters: {experiment: swing}}",
+            "is of the experiment swing, not of tora",
+        ),
+    ],
+)
+def test_overlays_by_their_path_that_cannot_be(tmp_path, file, text, reason):
+    (tmp_path / file).write_text(text)
+    assert reason in refused("tora", str(tmp_path / file))
+
+
+def test_an_overlay_that_is_not_there(tmp_path):
+    path = tmp_path / "none.yaml"
+    assert refused("tora", str(path)) == f"{path} cannot be read: No such file or directory"
+    assert refused("tora", f"{tmp_path}/") == f"{tmp_path} cannot be read: Is a directory"
+
+
 def test_what_is_written_loads_as_the_same_experiment(tmp_path):
     for name, variant in (("tora", "strong"), ("vdp_rfpt", "fixed_model")):
         original = experiment.load(name, variant)
@@ -176,12 +235,20 @@ def test_with_values_leaves_the_original_alone():
     assert changed.nodes["fpt_deformer"] == original.nodes["fpt_deformer"]
 
 
+def test_a_motion_out_of_the_workspace_is_refused_whatever_came_before():
+    wide = ["trajectory_generator.amplitude=[2.0, 0.5]"]
+    for _ in range(2):
+        experiment.load("tora")
+        assert "out of the workspace" in refused("tora", settings=wide)
+    experiment.load("tora", settings=["plant_simulator.exact.m=9"])
+
+
 def test_unknown_names_list_what_there_is():
     assert refused("toar").startswith("no experiment 'toar': there are ")
     assert ", ".join(experiment.available()) in refused("toar")
     expected = "tora has no variant 'weak': it has adaptive, chatter, guarded, nonadaptive, strong"
     assert refused("tora", "weak") == expected
-    assert refused("tora", "../x").startswith("tora has no variant '../x': it has adaptive")
+    assert refused("tora", "../x") == "../x cannot be read: No such file or directory"
     assert refused("tora", settings=["plant.dt=1"]) == (
         "there is no node 'plant': there are " + ", ".join(NODES)
     )
@@ -409,3 +476,28 @@ def test_shipped_files_give_numbers_the_type_that_ros_wants(path):
                 assert type(value) is float, f"{node}.{key}"
             if isinstance(checked, list) and checked and isinstance(checked[0], float):
                 assert all(type(x) is float for x in value), f"{node}.{key}"
+
+
+# --- noise
+
+
+def without_a_filter(tmp_path, noise):
+    text = (config_directory() / "tora.yaml").read_text().replace("    method: none\n", "", 1)
+    lines = text.splitlines()
+    at = next(i for i, line in enumerate(lines) if line.startswith("/**/denoiser"))
+    assert "ros__parameters" in lines[at + 1]
+    lines.insert(at + 2, "    order: 2")
+    plant = next(i for i, line in enumerate(lines) if line.startswith("/**/plant_simulator"))
+    lines.insert(plant + 2, f"    noise: {{position: {noise}}}")
+    path = tmp_path / "own.yaml"
+    path.write_text("\n".join(lines))
+    return str(path)
+
+
+def test_noise_is_filtered_where_nobody_has_chosen(tmp_path):
+    path = without_a_filter(tmp_path, 1e-4)
+    assert load(path).nodes["denoiser"]["method"] == "kalman_bank"
+    assert load(path, settings=["denoiser.method=none"]).nodes["denoiser"]["method"] == "none"
+    quiet = load(path, settings=["plant_simulator.noise.position=0.0"])
+    assert quiet.nodes["denoiser"]["method"] == "none"
+    assert load("tora").nodes["denoiser"]["method"] == "none"

@@ -6,9 +6,11 @@ import distributed
 import pytest
 
 from fpt_ros.errors import BadInput
+from fpt_ros.sweep.definition import define
+from fpt_ros.sweep.directory import open_directory
 from fpt_ros.sweep.executor import ClusterPool, LocalPool
-from fpt_ros.sweep.run_one import run_one
-from fpt_ros.sweep.sweep import define, open_directory, run
+from fpt_ros.sweep.run_one import run_chunk
+from fpt_ros.sweep.sweep import run
 
 
 def sweep_of(count):
@@ -38,7 +40,7 @@ def test_a_dask_cluster_that_loses_a_worker(tmp_path):
     assert killed.is_set()
     assert [row[0] for row in rows] == list(range(120))
     assert all("complete" in row for row in rows)
-    assert rows[70] == run_one(sweep.job, 70)
+    assert [rows[70]] == run_chunk(sweep.job, [70])[1]
 
 
 def test_a_local_worker_that_is_killed_is_replaced(tmp_path):

@@ -6,8 +6,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from fpt_ros.errors import BadInput
+from fpt_ros.sweep.definition import define
 from fpt_ros.sweep.grid import Space, parse, values
-from fpt_ros.sweep.sweep import define
 
 
 def test_linear_range_has_both_ends():

@@ -5,8 +5,11 @@ from engine_runs import chatter, settled_rms, topics_of
 
 from fpt_ros.errors import BadInput
 from fpt_ros.loop.experiment import load
-from fpt_ros.sweep import run_one
-from fpt_ros.sweep.sweep import define
+from fpt_ros.sweep import job as jobs
+from fpt_ros.sweep.definition import define
+from fpt_ros.sweep.executor import keep_memory
+from fpt_ros.sweep.ground import experiments_of
+from fpt_ros.sweep.run_one import run_chunk
 
 
 def job_of(name, grids, variant="adaptive", settings=(), duration=None, **options):
@@ -15,9 +18,8 @@ def job_of(name, grids, variant="adaptive", settings=(), duration=None, **option
 
 
 def rows_of(job):
-    return [
-        dict(zip(job.columns, run_one.run_one(job, i), strict=True)) for i in range(job.space.size)
-    ]
+    _, rows = run_chunk(job, range(job.space.size))
+    return [dict(zip(job.columns, row, strict=True)) for row in rows]
 
 
 CASES = [
@@ -41,16 +43,30 @@ def test_parameters_are_those_of_the_loader(name, variant, grids):
     job = job_of(name, grids, variant, duration=1.0)
     for number in range(job.space.size):
         point = job.space.point(number)
-        experiment, _ = run_one.experiment_at(job, point)
-        texts = run_one.settings(job, point)
-        assert experiment.nodes == load(name, variant, texts, 1.0).nodes
+        experiment, _ = experiments_of(job).at(point)
+        assert experiment.nodes == load(name, variant, job.options(point), 1.0).nodes
 
 
 def test_the_short_way_is_taken(monkeypatch):
     job = job_of("tora", ["fpt_deformer.A=-0.1:-2:9"], duration=0.1)
-    run_one.run_one(job, 0)
-    monkeypatch.setattr(run_one, "load", lambda *given: pytest.fail("files are read again"))
-    assert run_one.run_one(job, 5)[-1] is not None
+    run_chunk(job, [0])
+    monkeypatch.setattr(jobs, "load", lambda *given: pytest.fail("files are read again"))
+    (row,) = run_chunk(job, [5])[1]
+    assert row[-1] is not None
+
+
+def test_equal_jobs_of_other_types_are_told_apart():
+    """1, 1.0 and True are equal for Python, and -0.0 is 0.0."""
+    for values in ("1,2", "1.0,2.0", "1,2"):
+        (row,) = run_chunk(job_of("tora", [f"fpt_deformer.D={values}"], duration=0.1), [0])[1]
+        assert repr(row[1]) == values.split(",")[0]
+
+
+def test_a_process_keeps_its_memory_and_its_numbers():
+    job = job_of("tora", ["fpt_deformer.A=-0.1:-2:9"], duration=1.0)
+    before = run_chunk(job, [3, 4])[1]
+    keep_memory()
+    assert run_chunk(job, [3, 4])[1] == before
 
 
 def test_numbers_are_those_of_a_run_worked_out_independently():

@@ -4,7 +4,8 @@ from fpt_ros.errors import BadInput, RunFailed
 from fpt_ros.loop.experiment import load
 from fpt_ros.loop.locate import config_directory
 from fpt_ros.sweep import tune
-from fpt_ros.sweep.run_one import metric
+from fpt_ros.sweep.metric import metric
+from fpt_ros.sweep.overlay import check_overlay, write_overlay
 
 QUIET = "chatter=0.02"
 
@@ -33,7 +34,7 @@ def test_the_overlay_is_an_ordinary_variant(tmp_path, variant):
     found = search(task, 12)
     base = tmp_path / "tora.yaml"
     base.write_text((config_directory() / "tora.yaml").read_text())
-    tune.write_overlay(task, found, tmp_path / "tora.tuned.yaml")
+    write_overlay(task, found, tmp_path / "tora.tuned.yaml")
     again = load(str(base), "tuned")
     for node, values in found.experiment.nodes.items():
         ignored = {"experiment", "variant", "shows"}
@@ -46,7 +47,7 @@ def test_a_file_of_somebody_else_is_not_touched(tmp_path):
     path = tmp_path / "mine.yaml"
     path.write_text("a: 1\n")
     with pytest.raises(BadInput, match=r"exists and is not of fpt tune"):
-        tune.check_overlay(path)
+        check_overlay(path)
 
 
 def test_a_limit_that_nothing_meets():
