@@ -13,7 +13,6 @@ from typing import Any
 from rich.console import Console
 from rich.table import Table
 
-
 WIDTH = 132
 """Least width of a table [columns]: narrower it would be cut where there is no terminal."""
 

@@ -3,8 +3,8 @@
 Beyond the thesis, in the place of its fuzzy supervisor (section 5.1.1). Signals differ in kind, so
 all of these are fitted, by the same EM that separates impulses (:mod:`mixture`):
 
-* general smoothers: undecimated wavelets with neighbour shrinkage (:mod:`undecimated`), Whittaker
-  smoothers of order 2 and 3 with one penalty and with a local one (:mod:`whittaker`);
+* general smoothers: splines and oscillators whose stiffness and frequency vary along the signal
+  (:mod:`roughness`), of several orders and widths;
 * special ones: piecewise constant (:mod:`potts`, :mod:`steps`), sums of sinusoids
   (:mod:`sinusoids`).
 
@@ -12,17 +12,20 @@ Under one mixture for all, the medians of theirs, each has the score::
 
     score = -2 log likelihood + 3 df
 
-and means have the weights exp(-score / T). First the general ones are averaged, T = 12: their
-errors differ, and a mean is better than any. That mean is the pilot of empirical Wiener filters,
-averaged with T = 24. Last come the special ones, T = 4: where a signal is of their kind, they
-are far better, and should not be diluted. A mean costs the extra degrees of freedom
-2 sum var / (T s^2), var being that of its members at each sample. All constants were chosen on
-seeds 0-9 of the noise of the figures.
+and means have the weights exp(-score / T). First the general ones are averaged, T = 8: their
+errors differ, and a mean is better than any. Then that mean and the special ones, T = 2, as
+posterior probabilities: where a signal is of their kind, they are far better than the mean, else
+far worse. A mean costs the extra degrees of freedom 2 sum var / (T s^2), var being that of its
+members at each sample. All constants were chosen on seeds 0-9 of the noise of the figures.
+
+EM ends in the nearest of several optima, so general smoothers begin from several states: the record
+without what Hampel calls impulses, which keeps narrow peaks but leaves some impulses in; the same
+after a spline of one stiffness, which leaves none in but cuts peaks; and the record as it is, for
+oscillations so fast that Hampel flattens them.
 """
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import partial
 
 import numpy as np
 
@@ -33,28 +36,42 @@ from fpt_ros.denoising.offline import (
     Signal,
     mixture,
     potts,
+    roughness,
     sinusoids,
     steps,
-    whittaker,
 )
-from fpt_ros.denoising.offline import undecimated as wavelets
 from fpt_ros.parameters import Values
 
 PRICE = 3.0
 """Of a degree of freedom, in units of -2 log likelihood."""
-WIDE, WIDER, SHARP = 12.0, 24.0, 4.0
-"""Temperatures T of the three means."""
+WIDE, SHARP = 8.0, 2.0
+"""Temperatures T of the two means."""
 
-WAVELETS = ("haar", "sym4", "sym8", "db10")
-UNCLEANED = ("sym8", "db10")
-"""Wavelets tried without the removal of impulses first, which fast oscillations do not survive."""
-WIENER = ("sym4", "sym8", "db10")
-WIENER_ROUNDS = 3
-WAVELET_DF = 1.5
-"""Degrees of freedom for the choice of a neighbourhood and a threshold, per level."""
+Shape = tuple[int, float, float | None]
+"""Order, width and pitch of a general smoother (:class:`roughness.Roughness`)."""
 
-STEP_DF = 2.5
-"""Degrees of freedom per segment of ``steps`` beside those of its derivative."""
+SPLINE: Shape = (3, 40.0, None)
+"""The robust one that others begin from: in so wide a window no impulse makes a rough spot."""
+FROM_HAMPEL: tuple[Shape, ...] = ((2, 3.0, None), (3, 3.0, None), (0, 10.0, 10.0))
+"""For narrow peaks."""
+FROM_SPLINE: tuple[Shape, ...] = (
+    (2, 10.0, None),
+    (3, 3.0, None),
+    (3, 10.0, None),
+    (4, 5.0, None),
+    (0, 10.0, 10.0),
+    (0, 20.0, 20.0),
+    (0, 20.0, 40.0),
+    (1, 10.0, 10.0),
+)
+"""Splines for trends, lines, corners and jumps; oscillators for one local frequency, about 0 or
+about a level that wanders."""
+FROM_RECORD: tuple[Shape, ...] = ((0, 10.0, 10.0),)
+"""For fast oscillations."""
+
+STEP_DF = 3.0
+"""Least degrees of freedom per segment of ``steps``: those of its derivative vanish where the noise
+is finer than its grid of levels."""
 
 SHORTEST = 16
 LONGEST, PIECE, OVERLAP = 16384, 8192, 1024
@@ -99,9 +116,19 @@ class Judge:
         return PRICE * member.df - 2.0 * self.noise.log_likelihood(r, self.present)
 
 
-def _wavelet(z: Signal, sigma: float, name: str) -> tuple[Signal, float]:
-    f, df = wavelets.shrink(z, sigma, name)
-    return f, df + WAVELET_DF * wavelets.depth(len(z))
+def _general(y: Signal, present: Mask, begin: mixture.Start) -> list[mixture.Fit]:
+    """The fits of the general smoothers, that of the spline first."""
+
+    def fit(shape: Shape, z: Signal) -> mixture.Fit:
+        return mixture.fit(y, present, roughness.Roughness(*shape).smooth, begin, z)
+
+    spline = fit(SPLINE, begin.z)
+    return [
+        spline,
+        *(fit(shape, spline.z) for shape in FROM_SPLINE),
+        *(fit(shape, begin.z) for shape in FROM_HAMPEL),
+        *(fit(shape, y) for shape in FROM_RECORD),
+    ]
 
 
 def _member(name: str, fit: mixture.Fit) -> Member:
@@ -111,48 +138,24 @@ def _member(name: str, fit: mixture.Fit) -> Member:
 def library(y: Signal, present: Mask) -> tuple[Judge, list[Member], list[Member]]:
     """The judge, the general smoothers, and the special ones, all fitted to ``y``."""
     begin = mixture.start(y, present)
-    fits: dict[str, mixture.Fit] = {}
-    for order in (2, 3):
-        core = partial(whittaker.smooth, order=order)
-        fits[f"whittaker{order}"] = mixture.fit(y, present, core, begin)
-        core = partial(whittaker.smooth_locally, order=order)
-        fits[f"local whittaker{order}"] = mixture.fit(y, present, core, begin)
-    spline = fits["whittaker2"].z
-    for name in WAVELETS:
-        fits[name] = mixture.fit(y, present, partial(_wavelet, name=name), begin)
-        fits[f"{name} after spline"] = mixture.fit(
-            y, present, partial(_wavelet, name=name), begin, spline
-        )
-    general = [_member(name, fit) for name, fit in fits.items()]
-    for name in UNCLEANED:
-        fit = mixture.fit(y, present, partial(_wavelet, name=name), begin, y)
-        general.append(_member(f"{name} uncleaned", fit))
-    fits["potts"] = mixture.fit(y, present, potts.smooth, begin, potts.robust_start(y, begin.sigma))
-    fits["sinusoids"] = mixture.fit(y, present, sinusoids.Tones().smooth, begin)
-    constant = fits["potts"]
+    general = _general(y, present, begin)
+    levels = potts.robust_start(y, begin.sigma)
+    constant = mixture.fit(y, present, potts.smooth, begin, levels)
+    tones = [
+        mixture.fit(y, present, sinusoids.Tones().smooth, begin, z) for z in (begin.z, general[0].z)
+    ]
+    fits = [*general, constant, *tones]
+    noises = [(f.noise.p, f.noise.s, f.noise.t, f.noise.m) for f in fits]
+    p, s, t, m = (float(x) for x in np.median(noises, axis=0))
+    judge = Judge(y, present, mixture.Noise(p, s, t, m))
     jumps = int(np.count_nonzero(np.diff(constant.estimate)))
     mean, df = steps.smooth(y, present, constant.noise, jumps)
     special = [
         _member("potts", constant),
-        Member("steps", mean, df + STEP_DF * (jumps + 1)),
-        _member("sinusoids", fits["sinusoids"]),
+        Member("steps", mean, max(df, STEP_DF * (jumps + 1))),
+        min((_member("sinusoids", fit) for fit in tones), key=judge.score),
     ]
-    p, s, t = np.median([(f.noise.p, f.noise.s, f.noise.t) for f in fits.values()], axis=0)
-    return Judge(y, present, mixture.Noise(float(p), float(s), float(t))), general, special
-
-
-def refine(judge: Judge, pilot: Member) -> Member:
-    """``pilot`` and its empirical Wiener filters, averaged."""
-    first, filters = pilot, [pilot]
-    for _ in range(WIENER_ROUNDS):
-        r = judge.y - first.estimate
-        z = first.estimate + judge.noise.inlier(r, judge.present) * r
-        filters = [
-            Member(name, *wavelets.wiener(z, judge.noise.s, first.estimate, name))
-            for name in WIENER
-        ]
-        first = judge.mean("wiener", filters, WIDE)
-    return judge.mean("general", [pilot, *filters], WIDER)
+    return judge, [_member("general", fit) for fit in general], special
 
 
 def supervise(y: Signal, present: Mask, values: Values) -> tuple[Signal, Info]:
@@ -162,8 +165,7 @@ def supervise(y: Signal, present: Mask, values: Values) -> tuple[Signal, Info]:
     middle = _middle(y[present])
     y = y - middle
     judge, general, special = library(y, present)
-    pilot = judge.mean("general", general, WIDE)
-    last = [refine(judge, pilot), *special]
+    last = [judge.mean("general", general, WIDE), *special]
     weight = judge.weights(last, SHARP)
     estimate = weight @ np.array([member.estimate for member in last])
     shares = {m.name: round(float(w), 3) for m, w in zip(last, weight, strict=True) if w > 5e-4}

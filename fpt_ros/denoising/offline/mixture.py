@@ -1,11 +1,14 @@
 """Impulses and white noise told apart by EM around any smoother: the frame of ``auto``.
 
-The residual r = y - f is taken as (1-p) N(0, s^2) + p N(0, s^2 + t^2). Each round::
+The residual r = y - f is taken as (1-p) N(0, s^2) + p/2 N(m, s^2 + t^2) + p/2 N(-m, s^2 + t^2):
+impulses of both signs and of a typical size m, as many sources have; m = 0 where they have none.
+Each round::
 
     w = P(inlier | r),    z = f + w (y - f),    f = core(z, s)
 
-with p in [0.001, 0.15], t^2 >= 9 s^2, and s = sqrt(sum w r^2 / (sum w - df)) kept within [1, 1.2]
-MAD(z), that MAD within [0.7, 1.1] of the one before. Where a sample is missing w = 0.
+with p in [0.001, 0.15], t >= s, m^2 + t^2 >= 9 s^2, and s = sqrt(sum w r^2 / (sum w - df)) kept
+within [1, 1.2] MAD(z), that MAD within [0.7, 1.1] of the one before. Where a sample is missing
+w = 0.
 
 Impulses come alone: next to a likely impulse of the same sign, p is lowered by exp(-2).
 Otherwise a narrow peak of the signal would pass for a burst of impulses.
@@ -34,11 +37,12 @@ FAINTEST = 1e-7
 
 @dataclass(frozen=True)
 class Noise:
-    """The mixture: share p of impulses, s of all samples, and t of the impulses (unit of y)."""
+    """The mixture: share p of impulses, s of all samples, t and m of the impulses (unit of y)."""
 
     p: float
     s: float
     t: float
+    m: float = 0.0
 
     def _logits(self, r: Signal, present: Mask) -> tuple[Signal, Signal]:
         """Log of P(impulse) / P(none) for each residual, and by how much its neighbours lowered it.
@@ -46,8 +50,10 @@ class Noise:
         Three mean-field rounds: more change nothing that counts.
         """
         narrow, wide = self.s**2, self.s**2 + self.t**2
-        alone = np.full(len(r), math.log(self.p) - math.log1p(-self.p))
-        alone += 0.5 * (r**2 * (1.0 / narrow - 1.0 / wide) + math.log(narrow / wide))
+        size = np.abs(r)
+        alone = np.full(len(r), math.log(0.5 * self.p) - math.log1p(-self.p))
+        alone += 0.5 * (r**2 / narrow - (size - self.m) ** 2 / wide + math.log(narrow / wide))
+        alone += np.log1p(np.exp(-2.0 * self.m * size / wide))  # the impulse of the other sign
         lowered = np.zeros(len(r))
         for _ in range(3):
             impulse = np.where(present, _logistic(alone - lowered), 0.0) * np.sign(r)
@@ -121,24 +127,33 @@ def first_noise(y: Signal, f: Signal, begin: Start, present: Mask) -> Noise:
     """The mixture that belongs to the samples that Hampel replaced."""
     share = float(np.sum(begin.outlier)) / max(1, int(present.sum()))
     p = min(max(share, LEAST_SHARE), MOST_SHARE)
-    power = float(np.mean((y - f)[begin.outlier] ** 2)) if begin.outlier.any() else 0.0
-    return Noise(p, begin.sigma, math.sqrt(max(power, 9.0 * begin.sigma**2)))
+    size = np.abs(y - f)[begin.outlier] if begin.outlier.any() else np.zeros(1)
+    return _noise(p, begin.sigma, float(np.mean(size**2)), float(np.mean(size)))
+
+
+def _noise(p: float, s: float, power: float, m: float) -> Noise:
+    """The mixture whose impulses have the mean square ``power`` and, if that allows it, size m."""
+    power = max(power, 9.0 * s**2)
+    t = math.sqrt(max(power - m**2, s**2))
+    return Noise(p, s, t, math.sqrt(max(power - t**2, 0.0)))
 
 
 def next_noise(
-    y: Signal, f: Signal, z: Signal, w: Signal, df: float, present: Mask, sigma0: float
+    y: Signal, f: Signal, z: Signal, w: Signal, df: float, present: Mask, sigma0: float, old: Noise
 ) -> Noise:
     """The M step: the mixture of the residuals y - f with the weights w of the inliers."""
-    square = (y - f) ** 2
+    size = np.abs(y - f)
+    square = size**2
     inliers = float(np.sum(w))
     scale = min(max(noise_sigma(z, present), 0.7 * sigma0), 1.1 * sigma0)
     s = math.sqrt(float(np.sum(w * square)) / max(inliers - df, 0.05 * inliers, 1e-300))
     s = min(max(s, scale), 1.2 * scale)
     out = np.where(present, 1.0 - w, 0.0)
-    outliers = float(np.sum(out))
+    outliers = max(float(np.sum(out)), 1e-9)
     p = min(max(outliers / max(1, int(present.sum())), LEAST_SHARE), MOST_SHARE)
-    spread = float(np.sum(out * square)) / outliers - s**2 if outliers > 1e-9 else 0.0
-    return Noise(p, s, math.sqrt(max(spread, 9.0 * s**2)))
+    sign = np.tanh(old.m * size / (old.s**2 + old.t**2))  # P(its own) - P(the other)
+    m = float(np.sum(out * size * sign)) / outliers
+    return _noise(p, s, float(np.sum(out * square)) / outliers - s**2, m)
 
 
 def fit(y: Signal, present: Mask, core: Core, begin: Start, z: Signal | None = None) -> Fit:
@@ -159,7 +174,7 @@ def fit(y: Signal, present: Mask, core: Core, begin: Start, z: Signal | None = N
         w = noise.inlier(y - f, present)
         z = f + w * (y - f)
         f, df = core(z, s)
-        noise = next_noise(y, f, z, w, df, present, begin.sigma)
+        noise = next_noise(y, f, z, w, df, present, begin.sigma, noise)
         if np.mean((f - before) ** 2) < (CLOSE * s) ** 2:
             break
     return Fit(f, z, df, noise)

@@ -29,6 +29,7 @@ def _posterior(
     p: float,
     s: float,
     t: float,
+    size: float,
     mean: Signal,
     leverage: Signal,
 ) -> None:
@@ -37,15 +38,16 @@ def _posterior(
     density = np.ones((n, m))
     forward = np.empty((n, m))
     narrow, wide = s * s, s * s + t * t
-    inlier, outlier = (1.0 - p) / s, p / math.sqrt(wide)
+    inlier, outlier = (1.0 - p) / s, 0.5 * p / math.sqrt(wide)
     for i in range(n):
         total = 0.0
         for k in range(m):
             if present[i]:
-                square = (y[i] - levels[k]) ** 2
+                x = y[i] - levels[k]
                 density[i, k] = (
-                    inlier * math.exp(-0.5 * square / narrow)
-                    + outlier * math.exp(-0.5 * square / wide)
+                    inlier * math.exp(-0.5 * x**2 / narrow)
+                    + outlier * math.exp(-0.5 * (x - size) ** 2 / wide)
+                    + outlier * math.exp(-0.5 * (x + size) ** 2 / wide)
                     + 1e-300
                 )
             before = (1.0 - q) * forward[i - 1, k] + q / m if i > 0 else 1.0 / m
@@ -88,5 +90,5 @@ def smooth(y: Signal, present: Mask, noise: Noise, jumps: int) -> tuple[Signal, 
     levels = np.linspace(low - noise.s, high + noise.s, LEVELS)
     mean, leverage = np.empty(len(y)), np.empty(len(y))
     q = SPARSE * max(jumps, 2) / len(y)
-    _posterior(y, present, levels, q, noise.p, noise.s, noise.t, mean, leverage)
+    _posterior(y, present, levels, q, noise.p, noise.s, noise.t, noise.m, mean, leverage)
     return mean, float(leverage.sum()) + 1.0

@@ -167,32 +167,6 @@ def _lambdas(n: int, levels: int) -> Signal:
     )
 
 
-def wiener(y: Signal, sigma: float, pilot: Signal, wavelet: str) -> tuple[Signal, float]:
-    """Empirical Wiener filter (Ghael, Sayeed, Baraniuk 1997): a second estimate from a first one.
-
-    Coefficients are multiplied by g = e / (e + sigma^2), e the mean square of the pilot's
-    coefficients over 3 neighbours at stride 2^j. The degrees of freedom count
-    g + 2 g (1 - g), the second part because the pilot follows the data.
-
-    Args:
-        y: samples, shape (n,).
-        sigma: of their white noise, > 0.
-        pilot: the first estimate, shape (n,).
-        wavelet: of this estimate; best another than the pilot's.
-    """
-    n = len(y)
-    transform = bank(wavelet, n)
-    bands, known = transform.analyse(y), transform.analyse(pilot)
-    energy = np.empty(2 * n)
-    df = n / 2.0**transform.levels
-    for j in range(transform.levels):
-        _energies(known[j], 1, 2 ** (j + 1), energy)
-        gain = energy / (energy + 3.0 * sigma**2)
-        bands[j] *= gain
-        df += n / 2.0 ** (j + 1) * float(np.mean(gain * (3.0 - 2.0 * gain)))
-    return transform.synthesise(bands), df
-
-
 def shrink(y: Signal, sigma: float, wavelet: str = "sym8") -> tuple[Signal, float]:
     """The estimate for white noise of ``sigma``, shape (n,), and its degrees of freedom.
 

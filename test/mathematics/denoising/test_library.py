@@ -11,7 +11,15 @@ from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
 from fpt_ros.denoising import signals
-from fpt_ros.denoising.offline import mixture, potts, sinusoids, steps, undecimated, whittaker
+from fpt_ros.denoising.offline import (
+    banded,
+    mixture,
+    potts,
+    roughness,
+    sinusoids,
+    steps,
+    undecimated,
+)
 from fpt_ros.denoising.offline.noise import hampel
 
 
@@ -87,58 +95,92 @@ def test_shrinkage_of_pure_noise_leaves_little():
     assert np.mean(undecimated.shrink(y, 1.0)[0] ** 2) < 0.05
 
 
-def test_wiener_with_the_truth_as_pilot_beats_the_shrinkage():
-    f = signals.clean("doppler")
-    y = f + signals.white_noise(1024, 0.2, 6)
-    first = undecimated.shrink(y, 0.2)[0]
-    ideal = undecimated.wiener(y, 0.2, f, "sym8")[0]
-    second = undecimated.wiener(y, 0.2, first, "db10")[0]
-    assert signals.rmse(f, ideal) < signals.rmse(f, second) < signals.rmse(f, first)
+# roughness
 
 
-# Whittaker
-
-
-@pytest.mark.parametrize("order", [2, 3])
-def test_whittaker_is_the_dense_solution(order):
-    n, sigma = 60, 0.2
-    z = np.sin(np.arange(n) / 6) + sigma * np.random.default_rng(7).standard_normal(n)
+def differences(n, order, c=None):
+    """L of the splines and, with c, of the oscillators."""
     D = np.diff(np.eye(n), order, axis=0)
-    best = None
-    for penalty in whittaker.GRID[order]:
-        H = np.linalg.inv(np.eye(n) + penalty * D.T @ D)
-        cp = np.sum((z - H @ z) ** 2) + 2 * sigma**2 * np.trace(H)
-        if best is None or cp < best[0]:
-            best = cp, H
-    f, df = whittaker.smooth(z, sigma, order)
-    np.testing.assert_allclose(f, best[1] @ z, atol=1e-6)
-    assert df == pytest.approx(np.trace(best[1]) + 1, abs=1e-5)
+    if c is None:
+        return D
+    return D[:-2] - c[:, None] * D[1:-1] + D[2:]
 
 
-@pytest.mark.parametrize("order", [2, 3])
-def test_leverages_are_the_diagonal_of_the_hat_matrix(order):
-    family = whittaker.smoothers(25, order)
-    D = np.diff(np.eye(25), order, axis=0)
-    for penalty, leverage in zip(whittaker.GRID[order], family.leverages, strict=True):
-        if penalty < 1e4:
-            H = np.linalg.inv(np.eye(25) + penalty * D.T @ D)
-            np.testing.assert_allclose(leverage, np.diag(H), atol=1e-7)
+@pytest.mark.parametrize(("order", "pitch"), [(2, None), (4, None), (0, 5.0), (1, 5.0)])
+def test_banded_least_squares_is_the_dense_one(order, pitch):
+    n, rng = 30, np.random.default_rng(7)
+    core = roughness.Roughness(order, 5.0, pitch)
+    size = n - order - (0 if pitch is None else 2)
+    core.ratio, core.c = rng.uniform(0.1, 9, size), rng.uniform(-2, 2, size)
+    L = differences(n, order, None if pitch is None else core.c)
+    z = rng.standard_normal(n)
+    inverse = np.linalg.inv(np.eye(n) + L.T @ np.diag(1 / core.ratio) @ L)
+    f, rough, doubt, trace = banded.solve(z, 1 / core.ratio, core._rows())
+    np.testing.assert_allclose(f, inverse @ z, atol=1e-9)
+    np.testing.assert_allclose(np.abs(rough), np.abs(L @ inverse @ z), atol=1e-9)
+    np.testing.assert_allclose(doubt, np.diag(L @ inverse @ L.T), atol=1e-9)
+    assert trace == pytest.approx(np.trace(inverse))
+
+
+def test_variances_maximise_the_marginal_likelihood():
+    n, sigma = 80, 0.2
+    z = np.sin(np.arange(n) / 6) + sigma * np.random.default_rng(7).standard_normal(n)
+    core = roughness.Roughness(2, 1e6)  # one window over everything
+    for _ in range(200):
+        core.smooth(z, sigma)
+    D = differences(n, 2)
+
+    def likelihood(ratio):  # of D z, which is what does not depend on the lines D passes
+        covariance = ratio * np.eye(n - 2) + D @ D.T
+        r = D @ z / sigma
+        return -np.linalg.slogdet(covariance)[1] - r @ np.linalg.solve(covariance, r)
+
+    found = core.ratio.mean()
+    np.testing.assert_allclose(core.ratio, found, rtol=1e-6)
+    assert likelihood(found) > max(likelihood(0.8 * found), likelihood(1.25 * found))
 
 
 @settings(max_examples=25, deadline=None)
 @given(arrays(float, 3, elements=st.floats(-5, 5)))
-def test_whittaker_passes_polynomials(c):
-    t = np.linspace(-1, 1, 80)
-    y = np.polyval(c, t)
-    np.testing.assert_allclose(whittaker.smooth(y, 0.1, 3)[0], y, atol=1e-3)
-    np.testing.assert_allclose(whittaker.smooth_locally(y, 0.1, 3)[0], y, atol=1e-3)
+def test_splines_pass_polynomials(c):
+    y = np.polyval(c, np.linspace(-1, 1, 80))
+    np.testing.assert_allclose(roughness.Roughness(3, 10.0).smooth(y, 0.1)[0], y, atol=1e-3)
 
 
-def test_a_local_penalty_follows_a_changing_frequency():
-    f = signals.clean("doppler6")
-    y = f + signals.white_noise(1024, 0.1, 8)
-    one = whittaker.smooth(y, 0.1, 2)[0]
-    assert signals.rmse(f, whittaker.smooth_locally(y, 0.1, 2)[0]) < 0.75 * signals.rmse(f, one)
+@pytest.mark.parametrize(("name", "order"), [("doppler6", 0), ("chirp", 0), ("twotone", 1)])
+def test_oscillators_follow_a_changing_frequency(name, order):
+    f = signals.clean(name)
+    y = f + signals.white_noise(1024, 0.2, 8)
+    core = roughness.Roughness(order, 10.0, 10.0)
+    for _ in range(4):
+        found, _ = core.smooth(y, 0.2)
+    assert signals.rmse(f, found) < 0.9 * signals.rmse(f, undecimated.shrink(y, 0.2)[0])
+
+
+def test_a_narrow_window_keeps_lines():
+    f = signals.clean("spectro")
+    y = f + signals.white_noise(1024, 0.2, 8)
+    narrow, wide = (roughness.Roughness(3, width).smooth(y, 0.2)[0] for width in (5.0, 1e4))
+    assert signals.rmse(f, narrow) < 0.9 * signals.rmse(f, wide)
+
+
+def test_degrees_of_freedom_agree_with_the_loss():
+    """The loss is sum r^2 - n sigma^2 + 2 sigma^2 df in the mean."""
+    f, sigma = signals.clean("spectro"), 0.2
+    counted, true = [], []
+    for seed in range(20):
+        y = f + signals.white_noise(1024, sigma, seed)
+        core = roughness.Roughness(3, 5.0)
+        for _ in range(4):
+            found, df = core.smooth(y, sigma)
+        counted.append(df)
+        true.append(np.sum((found - f) * (y - f) + (y - f) ** 2 - (y - f) ** 2) / sigma**2)
+    assert np.mean(counted) == pytest.approx(np.mean(true), rel=0.15)
+
+
+def test_without_noise_nothing_is_smoothed():
+    y = np.random.default_rng(9).standard_normal(50)
+    assert roughness.Roughness(2, 3.0).smooth(y, 0.0) == (pytest.approx(y), 50.0)
 
 
 # piecewise constant
@@ -174,7 +216,7 @@ def test_viterbi_by_brute_force():
 def test_posterior_by_enumeration():
     rng = np.random.default_rng(10)
     levels, q, n = np.array([-1.0, 0.2, 1.5]), 0.15, 5
-    noise = mixture.Noise(0.1, 0.5, 2.0)
+    noise = mixture.Noise(0.1, 0.5, 2.0, 1.2)
     y = rng.uniform(-2, 2, n)
     present = np.array([True, True, False, True, True])
     paths = np.array(list(itertools.product(range(3), repeat=n)))
@@ -186,12 +228,13 @@ def test_posterior_by_enumeration():
         r = y - levels[paths]
         wide = math.hypot(noise.s, noise.t)
         density = 0.9 * np.exp(-0.5 * (r / noise.s) ** 2) / noise.s
-        density += 0.1 * np.exp(-0.5 * (r / wide) ** 2) / wide
+        for m in (noise.m, -noise.m):
+            density += 0.05 * np.exp(-0.5 * ((r - m) / wide) ** 2) / wide
         weight = prior * np.prod(np.where(present, density, 1.0), axis=1)
         return weight @ levels[paths] / weight.sum()
 
     mean, leverage = np.empty(n), np.empty(n)
-    steps._posterior(y, present, levels, q, noise.p, noise.s, noise.t, mean, leverage)
+    steps._posterior(y, present, levels, q, noise.p, noise.s, noise.t, noise.m, mean, leverage)
     np.testing.assert_allclose(mean, posterior(y), atol=1e-12)
 
 
@@ -233,11 +276,14 @@ def test_noise_has_few_tones():
 # EM
 
 
-def test_density_of_a_lone_residual():
-    noise = mixture.Noise(0.05, 1.0, 4.0)
+@pytest.mark.parametrize("m", [0.0, 3.0])
+def test_density_of_a_lone_residual(m):
+    noise = mixture.Noise(0.05, 1.0, 4.0, m)
     r = np.array([0.0, 5.0, 0.0, -0.3, 0.0])
     wide = math.sqrt(17.0)
-    density = 0.95 * np.exp(-(r**2) / 2) + 0.05 / wide * np.exp(-0.5 * (r / wide) ** 2)
+    density = 0.95 * np.exp(-(r**2) / 2)
+    for sign in (-1, 1):
+        density += 0.025 / wide * np.exp(-0.5 * ((r - sign * m) / wide) ** 2)
     expected = np.sum(np.log(density / math.sqrt(2 * math.pi)))
     present = np.ones(5, bool)
     # neighbours of the impulse have residuals of no sign: nothing is coupled
@@ -271,10 +317,23 @@ def test_em_finds_the_mixture():
     y = f + 0.1 * rng.standard_normal(2048) + hit * rng.standard_normal(2048)
     present = np.ones(2048, bool)
     begin = mixture.start(y, present)
-    fit = mixture.fit(y, present, lambda z, s: whittaker.smooth(z, s, 2), begin)
+    fit = mixture.fit(y, present, roughness.Roughness(3, 40.0).smooth, begin)
     assert fit.noise.s == pytest.approx(0.1, rel=0.1)
     assert fit.noise.p == pytest.approx(0.04, rel=0.4)
     assert signals.rmse(f, fit.estimate) < 0.03
+
+
+def test_em_finds_the_size_of_the_impulses():
+    f = signals.clean("sines", 2048)
+    rng = np.random.default_rng(12)
+    hit = rng.choice([-1.0, 1.0], 2048) * (rng.random(2048) < 0.04)
+    y = f + 0.1 * rng.standard_normal(2048) + hit * rng.normal(1.5, 0.2, 2048)
+    present = np.ones(2048, bool)
+    begin = mixture.start(y, present)
+    noise = mixture.fit(y, present, roughness.Roughness(3, 40.0).smooth, begin).noise
+    assert noise.m == pytest.approx(1.5, rel=0.05)
+    assert noise.t == pytest.approx(0.2, rel=0.3)
+    assert noise.p == pytest.approx(0.04, rel=0.3)
 
 
 def test_hampel_takes_out_impulses_only():
