@@ -99,8 +99,8 @@ def test_auto_shifts(name):
     y = np.round(y * 2**20) / 2**20  # so that adding a power of two rounds nothing
     expected = denoise(y + 2.0**5).estimate - 2.0**5
     np.testing.assert_allclose(denoise(y - 2.0**15).estimate + 2.0**15, expected, atol=1e-9)
-    # near 0 the sinusoids may do without a constant, which is worth a little
-    assert signals.rmse(expected, denoise(y).estimate) < 0.05
+    # near 0 sinusoids and oscillators may do without a constant, which is worth a little
+    assert signals.rmse(expected, denoise(y).estimate) < 0.07
 
 
 def test_white_noise_without_impulses():
