@@ -8,7 +8,8 @@ last is kept, for encoding all of them.
 """
 
 import struct
-from dataclasses import dataclass
+from collections.abc import Sequence
+from operator import itemgetter
 from typing import Any
 
 from fpt_ros.messages.frames import SECOND, Frame, Names
@@ -22,32 +23,48 @@ class MalformedMessage(ValueError):
     """Bytes that are not a message of the topic's type."""
 
 
-@dataclass(frozen=True)
 class _Layout:
-    """Where the numbers of one message layout stand."""
+    """Where the numbers of one message layout stand.
 
-    names: Names
-    whole: struct.Struct
-    """The message: seconds, nanoseconds, and in turn bytes that never change and vectors."""
-    fixed: tuple[tuple[int, bytes], ...]
-    """(place among the message's values, the bytes there)."""
-    vectors: tuple[tuple[int, int], ...]
-    """From where to where, among the message's values, each of the frame's vectors stands."""
+    Attributes:
+        names: of the frame.
+        whole: the message: seconds, nanoseconds, and in turn bytes that never change and vectors.
+        places: from where to where, among the message's values, each of the frame's vectors stands.
+    """
+
+    def __init__(
+        self,
+        names: Names,
+        whole: struct.Struct,
+        fixed: Sequence[tuple[int, bytes]],
+        places: Sequence[tuple[int, int]],
+    ) -> None:
+        """``fixed``: (place among the message's values, the bytes there)."""
+        self.names = names
+        self.whole = whole
+        self.places = places
+        self._fixed = fixed
+        # with an empty slice at the end a getter always gives a tuple
+        self._get = itemgetter(*[slice(*each) for each in places], slice(0))
+        self._get_fixed = itemgetter(*[at for at, _ in fixed], slice(0))
+        self._same = (*[raw for _, raw in fixed], ())
 
     def read(self, data: bytes) -> tuple[Any, ...] | None:
         """The message's values; None: it has another layout."""
         if len(data) != self.whole.size:
             return None
         values = self.whole.unpack(data)
-        for at, raw in self.fixed:
-            if values[at] != raw:
-                return None
-        return values
+        return values if self._get_fixed(values) == self._same else None
+
+    def vectors(self, values: tuple[Any, ...]) -> tuple[tuple[float, ...], ...]:
+        """The frame's vectors among the message's values."""
+        vectors: tuple[tuple[float, ...], ...] = self._get(values)[:-1]
+        return vectors
 
     def blank(self) -> list[Any]:
         """The message's values with the numbers still to be filled in."""
         values: list[Any] = list(self.whole.unpack(bytes(self.whole.size)))
-        for at, raw in self.fixed:
+        for at, raw in self._fixed:
             values[at] = raw
         return values
 
@@ -83,7 +100,7 @@ class Codec:
         assert self._last is not None
         layout, values = self._last, self._values
         values[1], values[2] = divmod(stamp, SECOND)
-        for (start, end), vector in zip(layout.vectors, vectors, strict=True):
+        for (start, end), vector in zip(layout.places, vectors, strict=True):
             values[start:end] = vector
         return layout.whole.pack(*values)
 
@@ -98,8 +115,8 @@ class Codec:
         if layout is None or values is None:
             layout = self._decoder = self._parse(data)
             values = layout.whole.unpack(data)
-        vectors = [values[start:end] for start, end in layout.vectors]
-        return self._make(values[1] * SECOND + values[2], layout.names, *vectors)
+        stamp = values[1] * SECOND + values[2]
+        return self._make(stamp, layout.names, *layout.vectors(values))
 
     def _build(self, names: Names, lengths: tuple[int, ...]) -> _Layout:
         """Layout of a message with these names, its frame's vectors of these lengths."""
@@ -199,6 +216,6 @@ class Codec:
         return _Layout(
             names=names,
             whole=struct.Struct(f"{form}{len(data) - since}x"),
-            fixed=tuple(fixed),
-            vectors=tuple(arrays[slot] for slot in self._slots),
+            fixed=fixed,
+            places=[arrays[slot] for slot in self._slots],
         )

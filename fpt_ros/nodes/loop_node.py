@@ -1,7 +1,7 @@
 """What every node of the graph is: loop subscriptions that hand over bytes, and diagnostics."""
 
 import importlib
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from time import monotonic
 from typing import Any
 
@@ -54,11 +54,6 @@ class LoopNode(Node):
         publisher = self.create_publisher(message_class(topic.type), topic.name, loop_qos())
         # past what rclpy's Publisher.publish checks at every message
         return getattr(publisher.handle, "publish_raw", publisher.publish)
-
-    @property
-    def awaited(self) -> Sequence[int]:
-        """Which of :attr:`loop_subscriptions` to wait for; what else has come is taken then."""
-        return range(len(self.loop_subscriptions))
 
     def begin(self) -> None:
         """Called once when everything is set up, before the first wait."""

@@ -27,41 +27,47 @@ class _LoopWaitSet:
     def __init__(self, nodes: Sequence[LoopNode], context: Context) -> None:
         from rclpy.impl.implementation_singleton import rclpy_implementation
 
-        self._nodes = [
-            (node, [(sub.handle, sub.msg_type, sub.callback) for sub in node.loop_subscriptions])
+        self._entries = [
+            (sub.handle.pointer, sub.handle, sub.msg_type, sub.callback)
             for node in reversed(nodes)
+            for sub in node.loop_subscriptions
         ]
         self._polls = len(nodes) > 1
-        size = sum(len(entries) for _, entries in self._nodes)
-        self._set = rclpy_implementation.WaitSet(size, 0, 0, 0, 0, 0, context.handle)
+        self._filled = False
+        self._set = rclpy_implementation.WaitSet(len(self._entries), 0, 0, 0, 0, 0, context.handle)
         self.wait_and_dispatch(0.0)
 
-    def wait_and_dispatch(self, timeout: float) -> bool:
-        """Wait at most ``timeout`` [s]; hand over what has come. False: nothing had.
+    def wait_and_dispatch(self, timeout: float) -> None:
+        """Wait at most ``timeout`` [s]; hand over what has come.
 
         Between nodes of one process a message is there as soon as it is published: they are asked
         one after the other, in the order of the cycle, and only where nothing has come is there a
         wait.
         """
         if self._polls and self._poll():
-            return True
+            return
         wait_set = self._set
-        wait_set.clear_entities()
-        for node, entries in self._nodes:
-            for i in node.awaited:
-                wait_set.add_subscription(entries[i][0])
+        if not self._filled:
+            wait_set.clear_entities()
+            for _, handle, _, _ in self._entries:
+                wait_set.add_subscription(handle)
         wait_set.wait(max(0, int(timeout * 1e9)))
-        return bool(wait_set.get_ready_entities("subscription")) and self._poll()
+        ready = wait_set.get_ready_entities("subscription")
+        self._filled = len(ready) == len(self._entries)  # the others are taken out by the wait
+        for pointer, handle, kind, callback in self._entries:
+            if pointer in ready:
+                taken = handle.take_message(kind, True)
+                if taken is not None:
+                    callback(taken[0])
 
     def _poll(self) -> bool:
         """Hand over what is there already."""
         came = False
-        for _, entries in self._nodes:
-            for handle, kind, callback in entries:
-                taken = handle.take_message(kind, True)
-                if taken is not None:
-                    callback(taken[0])
-                    came = True
+        for _, handle, kind, callback in self._entries:
+            taken = handle.take_message(kind, True)
+            if taken is not None:
+                callback(taken[0])
+                came = True
         return came
 
 
@@ -75,28 +81,27 @@ def spin(nodes: Sequence[LoopNode], stopped: Callable[[], bool], context: Contex
         node.begin()
     next_service = monotonic()
     try:
-        while not any(node.finished for node in nodes):
+        while True:
             now = monotonic()
             if now >= next_service:
                 if stopped():
-                    break
+                    return
                 _serve(executor, nodes)
                 now = monotonic()
                 next_service = now + SERVICE_PERIOD
             timeout = next_service - now
-            due = [node for node in nodes if node.deadline is not None]
-            for node in due:
-                assert node.deadline is not None
-                timeout = min(timeout, node.deadline - now)
+            for node in nodes:
+                if node.deadline is not None:
+                    timeout = min(timeout, node.deadline - now)
             if hot is not None:
                 hot.wait_and_dispatch(timeout)
             else:
                 executor.spin_once(timeout_sec=max(timeout, 0.0))
-            if due:
-                now = monotonic()
-                for node in due:
-                    if node.deadline is not None and now >= node.deadline:
-                        node.on_deadline()
+            for node in nodes:
+                if node.deadline is not None and monotonic() >= node.deadline:
+                    node.on_deadline()
+                if node.finished:
+                    return
     finally:
         executor.shutdown(timeout_sec=0.0)
 

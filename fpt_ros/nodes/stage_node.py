@@ -1,6 +1,6 @@
 """A node around one stage: it waits for the messages of a cycle, steps, and publishes."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from typing import Any
 
 from rcl_interfaces.msg import ParameterEvent
@@ -107,17 +107,6 @@ class StageNode(ParameterisedNode):
             self._try_step()
 
         return receive
-
-    @property
-    def awaited(self) -> Sequence[int]:
-        """The last of the messages that are missing: the others are there when it comes."""
-        for i in reversed(range(len(self._latest))):
-            frame, lag = self._latest[i], self._lags[i]
-            if lag and (self._realtime or self._acted < 0):
-                continue  # it acts without it, too
-            if frame is None or frame.stamp < self._acted + (not lag):
-                return (i,)
-        return range(len(self._latest))
 
     def _try_step(self) -> None:
         """Step if the messages of a cycle not acted on are complete."""
