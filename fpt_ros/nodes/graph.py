@@ -19,9 +19,10 @@ from pathlib import Path
 from fpt_ros.errors import BadInput, FptError, Interrupted, RunFailed
 from fpt_ros.loop.description import NODE as RECORDER
 from fpt_ros.loop.experiment import Experiment
+from fpt_ros.loop.parameter_tuner import ParameterTuner
 from fpt_ros.loop.plant_simulator import PlantSimulator
 from fpt_ros.loop.stages import STAGES
-from fpt_ros.nodes import shared_memory
+from fpt_ros.nodes import cores, shared_memory
 
 STALL = 60.0
 """Seconds without a new cycle after which the graph is given up."""
@@ -97,7 +98,8 @@ def run(
         if namespace:
             arguments += ["-r", f"__ns:=/{namespace.strip('/')}"]
         with shared_memory.left_as_found():
-            asyncio.run(_Graph(arguments, composed, recorded, progress).run())
+            core = None if composed or realtime else cores.idlest()
+            asyncio.run(_Graph(arguments, composed, recorded, core, progress).run())
 
 
 def environment() -> Mapping[str, str]:
@@ -126,10 +128,12 @@ class _Graph:
         arguments: list[str],
         composed: bool,
         recorded: bool,
+        core: int | None,
         progress: Callable[[int], None] | None,
     ) -> None:
         self._arguments = arguments
         self._recorded = recorded
+        self._core = core
         self._loop_names = ["composed"] if composed else list(reversed(STAGES))
         self._plant = "composed" if composed else PlantSimulator.name
         self._progress = progress
@@ -231,6 +235,12 @@ class _Graph:
         *lines, self._partial = self._partial.split(b"\n")
         if lines:
             cycle = int(lines[-1])
+            if cycle and self._core is not None:  # all have started, which is quicker on many
+                for child in self._loop:
+                    if child.name == ParameterTuner.name:
+                        continue  # works beside the trajectory generator
+                    cores.keep_on(self._core, child.process.pid)
+                self._core = None
             if cycle != self._cycle:
                 self._cycle, self._moved = cycle, asyncio.get_running_loop().time()
             if self._progress is not None:

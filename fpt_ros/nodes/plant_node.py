@@ -72,12 +72,19 @@ class PlantNode(ParameterisedNode):
             self._time(command.stamp)
         if command.stamp != self._stamp or command is self._command:
             return
-        if self._realtime and self._cycle == 0 and self._command is None:
-            self._next_tick = self.deadline = monotonic() + self.stage.dt  # it has gone around
         repeated = self._command is not None and self._command.stamp == command.stamp
         self._command = command
-        if not self._realtime and not repeated:
+        if self._realtime:
+            self._start_clock()
+        elif not repeated:
             self._end_cycle(command)
+
+    def _start_clock(self) -> None:
+        """Real time begins when cycle 0 has gone around, and is recorded: all are there then."""
+        if self._cycle or self.deadline is not None or self._command is None:
+            return
+        if self._recorded >= self._stamp or not self._awaits_recorder:
+            self._next_tick = self.deadline = monotonic() + self.stage.dt
 
     def _time(self, stamp: int) -> None:
         """Count the latency of the command of a cycle, in time or late."""
@@ -130,6 +137,8 @@ class PlantNode(ParameterisedNode):
 
     def _on_recorded(self, data: bytes) -> None:
         self._recorded = max(self._recorded, decode_time(data))
+        if self._realtime:
+            self._start_clock()
         if not self._held_back:
             return
         if self._cycle == self.stage.cycles:
