@@ -7,6 +7,7 @@ internals have changed, the executor serves the loop too: the same callbacks, sl
 """
 
 from collections.abc import Callable, Sequence
+from itertools import cycle
 from time import monotonic
 
 from rclpy.context import Context
@@ -15,7 +16,10 @@ from rclpy.executors import SingleThreadedExecutor, TimeoutException
 from fpt_ros.nodes.loop_node import LoopNode
 
 SERVICE_PERIOD = 0.04
-"""Seconds between two looks at parameters, services and timers."""
+"""Seconds between two looks at the parameters, services and timers of a node."""
+
+GRACE = 0.008
+"""Seconds by which such a look may come later, so that it does not delay a message of the loop."""
 
 _CALLS = 2
 """Calls served at one look: a flood of them cannot stop the loop."""
@@ -33,19 +37,20 @@ class _LoopWaitSet:
             for sub in node.loop_subscriptions
         ]
         self._polls = len(nodes) > 1
+        self.patience = 0.0 if self._polls else GRACE
         self._filled = False
         self._set = rclpy_implementation.WaitSet(len(self._entries), 0, 0, 0, 0, 0, context.handle)
         self.wait_and_dispatch(0.0)
 
-    def wait_and_dispatch(self, timeout: float) -> None:
-        """Wait at most ``timeout`` [s]; hand over what has come.
+    def wait_and_dispatch(self, timeout: float) -> bool:
+        """Wait at most ``timeout`` [s]; hand over what has come. True: nothing will come soon.
 
         Between nodes of one process a message is there as soon as it is published: they are asked
         one after the other, in the order of the cycle, and only where nothing has come is there a
-        wait.
+        wait. A node by itself has done its part of the cycle when it has had its messages.
         """
         if self._polls and self._poll():
-            return
+            return False
         wait_set = self._set
         if not self._filled:
             wait_set.clear_entities()
@@ -59,6 +64,7 @@ class _LoopWaitSet:
                 taken = handle.take_message(kind, True)
                 if taken is not None:
                     callback(taken[0])
+        return bool(ready) != self._polls
 
     def _poll(self) -> bool:
         """Hand over what is there already."""
@@ -71,42 +77,92 @@ class _LoopWaitSet:
         return came
 
 
+class _Others:
+    """Parameters, services and timers, one node after the other: a look at all takes too long."""
+
+    def __init__(self, served: Sequence[tuple[SingleThreadedExecutor, LoopNode]]) -> None:
+        self._served = served
+        self._next = 0
+        self._due = monotonic()
+
+    def timeout(self, now: float, patience: float) -> float:
+        """How long to wait for messages of the loop [s]; ``patience``: where a look is due."""
+        left = self._due - now
+        return left if left > 0.0 else max(0.0, left + patience / len(self._served))
+
+    def is_due(self, now: float, quiet: bool) -> bool:
+        """Whether to look now; ``quiet``: it would not delay the loop."""
+        return now >= self._due and (quiet or now >= self._due + GRACE / len(self._served))
+
+    def serve(self) -> None:
+        """Look at the next node."""
+        executor, node = self._served[self._next]
+        self._next = (self._next + 1) % len(self._served)
+        for _ in range(_CALLS):
+            try:
+                handler, _, _ = executor.wait_for_ready_callbacks(timeout_sec=0.0)
+            except TimeoutException:
+                break  # mostly nobody calls: one look is what it costs
+            handler()
+            error = handler.exception()
+            if error is not None:
+                raise error
+        node.housekeeping()
+        self._due = monotonic() + SERVICE_PERIOD / len(self._served)
+
+
 def spin(nodes: Sequence[LoopNode], stopped: Callable[[], bool], context: Context) -> None:
     """Run nodes until one of them has finished its work or ``stopped()``, asked now and then."""
-    executor = SingleThreadedExecutor(context=context)
-    for node in nodes:
+    wait_set = _wait_set(nodes, context)
+    count = 1 if wait_set is None else len(nodes)
+    executors = [SingleThreadedExecutor(context=context) for _ in range(count)]
+    served = list(zip(cycle(executors), nodes, strict=False))
+    for executor, node in served:
         executor.add_node(node)
-    hot = _hot_path(nodes, context)
+    hot = wait_set or _PlainExecutor(executors[0])
+    others = _Others(served)
     for node in nodes:
         node.begin()
-    next_service = monotonic()
+    quiet = True
     try:
         while True:
             now = monotonic()
-            if now >= next_service:
+            if others.is_due(now, quiet):
                 if stopped():
                     return
-                _serve(executor, nodes)
+                others.serve()
                 now = monotonic()
-                next_service = now + SERVICE_PERIOD
-            timeout = next_service - now
+            timeout = others.timeout(now, hot.patience)
             for node in nodes:
                 if node.deadline is not None:
-                    timeout = min(timeout, node.deadline - now)
-            if hot is not None:
-                hot.wait_and_dispatch(timeout)
-            else:
-                executor.spin_once(timeout_sec=max(timeout, 0.0))
+                    timeout = min(timeout, max(0.0, node.deadline - now))
+            quiet = hot.wait_and_dispatch(timeout)
             for node in nodes:
                 if node.deadline is not None and monotonic() >= node.deadline:
                     node.on_deadline()
                 if node.finished:
                     return
     finally:
-        executor.shutdown(timeout_sec=0.0)
+        for executor in executors:
+            executor.shutdown(timeout_sec=0.0)
 
 
-def _hot_path(nodes: Sequence[LoopNode], context: Context) -> _LoopWaitSet | None:
+class _PlainExecutor:
+    """In the place of the wait set: rclpy's executor serves the loop as it does all else."""
+
+    patience = 0.0
+
+    def __init__(self, executor: SingleThreadedExecutor) -> None:
+        self._executor = executor
+
+    def wait_and_dispatch(self, timeout: float) -> bool:
+        """As of the wait set; what it does not know is when the loop is quiet."""
+        self._executor.spin_once(timeout_sec=timeout)
+        return True
+
+
+def _wait_set(nodes: Sequence[LoopNode], context: Context) -> _LoopWaitSet | None:
+    """``None``: there is nothing to wait for, or rclpy has no such thing."""
     if not any(node.loop_subscriptions for node in nodes):
         return None
     try:
@@ -117,17 +173,3 @@ def _hot_path(nodes: Sequence[LoopNode], context: Context) -> _LoopWaitSet | Non
             "the loop runs on the plain executor, several times slower"
         )
         return None
-
-
-def _serve(executor: SingleThreadedExecutor, nodes: Sequence[LoopNode]) -> None:
-    for _ in range(_CALLS):
-        try:
-            handler, _, _ = executor.wait_for_ready_callbacks(timeout_sec=0.0)
-        except TimeoutException:
-            break  # mostly nobody calls: one look is what it costs
-        handler()
-        error = handler.exception()
-        if error is not None:
-            raise error
-    for node in nodes:
-        node.housekeeping()
