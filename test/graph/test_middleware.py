@@ -24,7 +24,7 @@ def output_of_a_participant(**environment):
     ours = {name: x for name, x in os.environ.items() if name != middleware.VARIABLE}
     done = subprocess.run(
         [sys.executable, "-c", PARTICIPANT],
-        env={**ours, "ROS_DOMAIN_ID": "58", **environment},
+        env={**ours, **environment},
         stdout=subprocess.PIPE,
         stderr=subprocess.STDOUT,
         text=True,
