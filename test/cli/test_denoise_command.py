@@ -82,3 +82,33 @@ def test_signals_that_cannot_be_used(tmp_path, content):
     assert done.returncode == 2
     assert len(done.stderr.strip().splitlines()) == 1
     assert [path.name for path in tmp_path.iterdir()] == ["s.csv"]
+
+
+# --- test signals
+
+
+def test_a_test_signal_tells_the_success(tmp_path):
+    out = tmp_path / "sines.csv"
+    word = "test:sines,rho=0.5,seed=10"
+    found = fpt_json("denoise", word, "--method", "heursure", "--out", out)
+    assert found["snr_before"] == pytest.approx(2.2294, abs=1e-6)
+    assert 10.0 < found["snr_after"] < 16.0
+    table = np.genfromtxt(out, delimiter=",", names=True)
+    assert table.dtype.names == ("t", "clean", "y", "healed", "estimate")
+    error = np.sqrt(np.mean((table["estimate"] - table["clean"]) ** 2))
+    assert found["rmse"] == pytest.approx(error)
+
+
+@pytest.mark.parametrize(
+    ("words", "message"),
+    [
+        (["test:sinus"], "test signals are sines"),
+        (["test:sines", "--column", "y"], "it takes no --column"),
+        (["test:sines", "--method", "visushrink", "--set", "wavelet=x"], "PyWavelets' discrete"),
+    ],
+)
+def test_bad_words_for_test_signals(tmp_path, words, message):
+    done = fpt("denoise", *words, "--out", tmp_path / "x.csv")
+    assert done.returncode == 2
+    assert message in done.stderr
+    assert not (tmp_path / "x.csv").exists()
