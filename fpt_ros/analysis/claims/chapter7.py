@@ -193,6 +193,8 @@ def delay_figure(runs: Runs) -> Drawn:
     return draw.charts(cell, height=3.8, log="y", aside=True)
 
 
+UPON = "The curve of the wavelet lies upon that of Savitzky-Golay."
+
 CLAIMS: tuple[Claim[Run], ...] = (
     Claim(
         "7",
@@ -202,7 +204,7 @@ CLAIMS: tuple[Claim[Run], ...] = (
         {_label(m, s): _with(m, s) for m in METHODS for s in SIGMAS},
         _noise,
         (
-            Picture("", "Noise and filters", noise_figure),
+            Picture("", "Noise and filters", noise_figure, UPON),
             Picture(
                 "",
                 "Tracking error with noise of 0.0001",
@@ -223,6 +225,6 @@ CLAIMS: tuple[Claim[Run], ...] = (
             **{_label(m, d): _with(m, 1e-4, d) for m in LATE for d in DELAYS},
         },
         _delay,
-        (Picture("", "Delay and filters", delay_figure),),
+        (Picture("", "Delay and filters", delay_figure, UPON),),
     ),
 )
