@@ -38,6 +38,9 @@ SIDE_TOPICS = {
 }
 """Recorded as they come; no cycle depends on them."""
 
+NICE = 10
+"""In real time the loop comes first: misses with a recorder were down by a third to a half."""
+
 _STAMP = struct.Struct("<iI")
 
 
@@ -48,6 +51,8 @@ class Recorder(LoopNode):
         super().__init__(description.NODE)
         values = declare(self, description.parameters)
         self._lockstep = values.get("realtime") is not True
+        if not self._lockstep:
+            os.nice(NICE)
         self._cycles = integer(values, "cycles")
         files = _parameter_files()
         experiment = word(values, "experiment") or (files[0].stem if files else "run")
