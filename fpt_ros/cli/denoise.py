@@ -171,6 +171,7 @@ def _compare(source: "Source", json: bool) -> None:
         rows.append(
             {
                 "method": name,
+                **_success(source, result),
                 "sigma": result.sigma,
                 "residual_rms": float(np.sqrt(np.nanmean(residual**2))),
                 "residual_median": float(np.nanmedian(np.abs(residual))) / 0.6745,
@@ -181,15 +182,22 @@ def _compare(source: "Source", json: bool) -> None:
     if json:
         print_json({"signal": source.name, "samples": len(source.values), "methods": rows})
         return
+    from rich.markup import escape
     from rich.table import Table
 
-    table = Table("method", "residual rms", "robust", "roughness", "CPU [s]", box=None)
+    known = {"SNR [dB]": "snr_after"} if source.clean is not None else {}
+    columns = known | {
+        "residual rms": "residual_rms",
+        "robust": "residual_median",
+        "roughness": "roughness",
+        "CPU [s]": "cpu_time",
+    }
+    table = Table("method", *map(escape, columns), box=None)
     for row in rows:
         if "error" in row:
             table.add_row(str(row["method"]), str(row["error"]))
             continue
-        keys = ("residual_rms", "residual_median", "roughness", "cpu_time")
-        table.add_row(str(row["method"]), *(f"{row[key]:.4g}" for key in keys))
+        table.add_row(str(row["method"]), *(f"{row[key]:.4g}" for key in columns.values()))
     screen = console()
     screen.print(table)
     screen.print(

@@ -99,6 +99,15 @@ def test_a_test_signal_tells_the_success(tmp_path):
     assert found["rmse"] == pytest.approx(error)
 
 
+def test_methods_are_compared_by_their_success_where_it_is_known():
+    found = fpt_json("denoise", "test:heavisine,rho=0.9,seed=12", "--compare")
+    snr = {row["method"]: row["snr_after"] for row in found["methods"]}
+    assert snr["auto"] == max(snr.values())
+    assert snr["sureshrink"] < snr["improved"] < snr["auto"]
+    shown = fpt("denoise", "test:heavisine,rho=0.9,seed=12", "--compare").stdout
+    assert "SNR [dB]" in shown
+
+
 @pytest.mark.parametrize(
     ("words", "message"),
     [
