@@ -1,6 +1,6 @@
 # make demo   the TORA experiment over DDS, recorded and reported
 # make test   all tests
-# make bench  all benchmarks (half an hour; the machine should be quiet)
+# make bench  all benchmarks (three quarters of an hour; the machine should be quiet)
 # All set up what is missing: a .venv with ROS 2 Jazzy (from PyPI) and this package in it.
 
 # A sourced ROS or another venv must not leak into ours.

@@ -4,13 +4,30 @@ import math
 
 import numpy as np
 
-from fpt_ros.analysis.claims import NO, ONLY_IF, YES, Claim, Drawn, Picture, Table, Verdict
+from fpt_ros.analysis.claims import (
+    NO,
+    ONLY_IF,
+    YES,
+    Claim,
+    Drawn,
+    Picture,
+    Table,
+    Verdict,
+    printed_rules,
+)
 from fpt_ros.analysis.claims.measures import because, factor_text, listed
-from fpt_ros.analysis.claims.trials import Results, Scores, Trial, curves, decibels
+from fpt_ros.analysis.claims.trials import (
+    LABELS,
+    PEERS,
+    Results,
+    Scores,
+    Trial,
+    curves,
+    decibels,
+)
 from fpt_ros.denoising.noisy import Noisy
-from fpt_ros.denoising.offline import Signal, heursure, minimax, sureshrink, universal
 from fpt_ros.denoising.offline.noise import mad
-from fpt_ros.denoising.offline.thresholding import compose, decompose, soft
+from fpt_ros.denoising.offline.thresholding import decompose
 from fpt_ros.denoising.signals import snr_db
 
 TITLE = "Improved denoising in the wavelet domain"
@@ -18,61 +35,8 @@ TITLE = "Improved denoising in the wavelet domain"
 SINES = Noisy("sines")
 SIGNALS = ("sines", "doppler", "heavisine", "bumps", "blocks")
 THESIS = ("improved", "heursure", "sureshrink", "minimax")
-PEERS = ("bayesshrink", "visushrink", "soft_universal", "median_savgol", "lowess")
-LABELS = {
-    "bayesshrink": "scikit-image, BayesShrink",
-    "visushrink": "scikit-image, VisuShrink",
-    "soft_universal": "PyWavelets, soft, universal",
-    "median_savgol": "median of 5, Savitzky-Golay (35, 3)",
-    "lowess": "statsmodels, lowess of 61 samples",
-    "auto": "auto (default)",
-}
 
 # --- 5.1: the threshold rules as printed
-
-
-def _printed_universal(x: Signal, y: Signal, sigma: float) -> float:
-    return sigma * math.sqrt(2.0) * math.log(len(y))
-
-
-def _printed_sure(x: Signal, y: Signal, sigma: float) -> float:
-    squares, n = np.sort(x**2), len(x)
-    i = np.arange(1, n + 1)
-    risk = np.abs(n - 2 * i + (n - i) * squares + np.sum(squares**2)) / n
-    return float(np.std(y)) * math.sqrt(risk.min())
-
-
-def _printed_heursure(x: Signal, y: Signal, sigma: float) -> float:
-    k = len(x)
-    square = float(np.sum((x / sigma) ** 2))
-    bound = sigma * universal.threshold(k)
-    return bound if (square - k) / k <= math.log2(k) ** 1.5 else min(bound, _printed_sure(x, y, 1))
-
-
-def _printed_minimax(x: Signal, y: Signal, sigma: float) -> float:
-    return sigma * (0.3936 + 0.1829 * len(y))
-
-
-RULES = {
-    "universal (5.1)": ("universal", 4, _printed_universal),
-    "SureShrink (5.2)": ("sureshrink", 8, _printed_sure),
-    "HeurSure (5.3)": ("heursure", 4, _printed_heursure),
-    "minimax (5.4)": ("minimax", 4, _printed_minimax),
-}
-"""Method, level of decomposition, and the printed threshold of x, a detail of y."""
-
-
-def _printed_sigma(finest: Signal) -> float:
-    """``median(omega_j) / 0.6745``, without an absolute value: about 0 of any symmetric band."""
-    return abs(float(np.median(finest))) / 0.6745
-
-
-CORRECTED = {
-    "universal": universal.rule,
-    "sureshrink": sureshrink.rule,
-    "heursure": heursure.rule,
-    "minimax": minimax.rule,
-}
 
 
 def _as_printed(results: Results) -> Verdict:
@@ -81,17 +45,13 @@ def _as_printed(results: Results) -> Verdict:
     sigma = mad(finest)
     measured: dict[str, float | str | None] = {}
     rows, losses = [], {}
-    for label, (method, level, printed) in RULES.items():
+    for label, rule in printed_rules.RULES.items():
         found = []
         for seed in results[label].seeds:
             noisy = SINES.with_seed(seed)
-            bands = decompose(noisy.samples(), "sym8", level)
-            spread = _printed_sigma(bands[-1])
-            shrunk = [soft(x, printed(x, noisy.samples(), spread)) for x in bands[1:]]
-            estimate = compose([bands[0], *shrunk], "sym8", noisy.n)
-            found.append(snr_db(noisy.clean(), estimate))
-        threshold = printed(finest, y, _printed_sigma(finest)) / sigma
-        corrected = CORRECTED[method](finest / sigma, len(y))
+            found.append(snr_db(noisy.clean(), rule.denoise(noisy.samples())))
+        threshold = rule.printed(finest, y, printed_rules.sigma(finest)) / sigma
+        corrected = rule.corrected(finest / sigma, len(y))
         literal, right = float(np.mean(found)), results[label].mean("snr")
         losses[label] = right - literal
         measured[f"{label}: as printed [dB]"] = literal
@@ -346,7 +306,7 @@ CLAIMS: tuple[Claim[Scores], ...] = (
         "",
         "The threshold rules are (5.1) universal, (5.2) SureShrink, (5.3) HeurSure and (5.4) "
         "minimax.",
-        {label: Trial(SINES, method) for label, (method, _, _) in RULES.items()},
+        {label: Trial(SINES, rule.method) for label, rule in printed_rules.RULES.items()},
         _as_printed,
     ),
     Claim(

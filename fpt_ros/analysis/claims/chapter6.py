@@ -6,10 +6,9 @@ import numpy as np
 
 from fpt_ros.analysis import style
 from fpt_ros.analysis.claims import NO, ONLY_IF, YES, Claim, Drawn, Picture, Table, Verdict
-from fpt_ros.analysis.claims.chapter5 import LABELS, PEERS
 from fpt_ros.analysis.claims.drawings import charts
 from fpt_ros.analysis.claims.measures import because
-from fpt_ros.analysis.claims.trials import Results, Scores, Trial, curves
+from fpt_ros.analysis.claims.trials import LABELS, PEERS, Results, Scores, Trial, curves
 from fpt_ros.denoising.noisy import Noisy
 from fpt_ros.denoising.offline import Signal, weighting
 from fpt_ros.denoising.offline.adaptive_savgol import divide, extrema, relation, rule

@@ -19,6 +19,17 @@ from fpt_ros.loop.parameter_file import scalar
 SEEDS = range(10, 30)
 """Those that figures are reported of; constants were chosen on seeds 0 to 9."""
 
+PEERS = ("bayesshrink", "visushrink", "soft_universal", "median_savgol", "lowess")
+LABELS = {
+    "bayesshrink": "scikit-image, BayesShrink",
+    "visushrink": "scikit-image, VisuShrink",
+    "soft_universal": "PyWavelets, soft, universal",
+    "median_savgol": "median of 5, Savitzky-Golay (35, 3)",
+    "lowess": "statsmodels, lowess of 61 samples",
+    "auto": "auto (default)",
+}
+"""Methods of other libraries, and what tables call a method."""
+
 NOTHING = np.empty(0)
 
 
@@ -35,6 +46,7 @@ class Scores:
         missing: root mean square error over the missing samples alone; NaN where there are none.
         seconds: CPU time, one thread.
         reason: why there is nothing: a library is not installed.
+        seeds: of the noise.
     """
 
     clean: Signal
