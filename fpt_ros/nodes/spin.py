@@ -77,7 +77,7 @@ class _LoopWaitSet:
         return came
 
 
-class _Others:
+class _Services:
     """Parameters, services and timers, one node after the other: a look at all takes too long."""
 
     def __init__(self, served: Sequence[tuple[SingleThreadedExecutor, LoopNode]]) -> None:
@@ -120,19 +120,19 @@ def spin(nodes: Sequence[LoopNode], stopped: Callable[[], bool], context: Contex
     for executor, node in served:
         executor.add_node(node)
     hot = wait_set or _PlainExecutor(executors[0])
-    others = _Others(served)
+    services = _Services(served)
     for node in nodes:
         node.begin()
     quiet = True
     try:
         while True:
             now = monotonic()
-            if others.is_due(now, quiet):
+            if services.is_due(now, quiet):
                 if stopped():
                     return
-                others.serve()
+                services.serve()
                 now = monotonic()
-            timeout = others.timeout(now, hot.patience)
+            timeout = services.timeout(now, hot.patience)
             for node in nodes:
                 if node.deadline is not None:
                     timeout = min(timeout, max(0.0, node.deadline - now))
