@@ -18,8 +18,8 @@ import numpy as np
 from measure import alternate, arguments, median, show
 
 from fpt_ros.analysis.metrics import rms
-from fpt_ros.loop.engine import Engine
-from fpt_ros.loop.experiment import load
+from fpt_ros.engine.engine import Engine
+from fpt_ros.experiments.experiment import load
 
 EXPERIMENTS = ("tora", "vdp_rfpt", "cart_beam_hamper", "spherical_pendulum")
 AGREEMENT = 1e-9

@@ -98,7 +98,7 @@ def measure_ring(composed: bool) -> float:
 
 def measure_graph(name: str, seconds: float, composed: bool, recorded: bool) -> float:
     """Cycles a second, the first part of the run (discovery) not counted."""
-    from fpt_ros.loop.experiment import load
+    from fpt_ros.experiments.experiment import load
     from fpt_ros.nodes import graph
 
     experiment = load(name).with_values("plant_simulator", duration=seconds)

@@ -18,7 +18,7 @@ from pathlib import Path
 
 from measure import arguments, show
 
-from fpt_ros.loop.latency import Latencies
+from fpt_ros.runs.latency import Latencies
 
 BARE = "a bare loop that sleeps"
 KINDS = {
@@ -75,7 +75,7 @@ def listen() -> None:
 
 def run(seconds: float, composed: bool, bag: Path | None) -> Latencies:
     """One run of TORA on the wall clock, and what its plant said last."""
-    from fpt_ros.loop.experiment import load
+    from fpt_ros.experiments.experiment import load
     from fpt_ros.nodes import graph
 
     experiment = load("tora").with_values("plant_simulator", duration=seconds)

@@ -47,7 +47,7 @@ def first_start() -> float:
 def node() -> tuple[float, float]:
     """Seconds until a node is set up and waits for messages, and its resident memory [MB]."""
     with tempfile.TemporaryDirectory(prefix="fpt-bench-") as folder:
-        from fpt_ros.loop.experiment import load
+        from fpt_ros.experiments.experiment import load
 
         parameters = Path(folder) / "parameters.yaml"
         load("tora").write(parameters)

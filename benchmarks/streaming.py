@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 
 from fpt_ros import registry
 from fpt_ros.denoising import streaming
-from fpt_ros.loop import compiled
+from fpt_ros.engine import compiled
 from fpt_ros.parameters import Value, resolve
 
 Array = NDArray[np.float64]

@@ -10,16 +10,16 @@ from collections.abc import Iterable
 from pathlib import Path
 
 from fpt_ros import registry
+from fpt_ros.cycle.approximate_model import MODEL
+from fpt_ros.cycle.denoiser import METHOD
+from fpt_ros.cycle.fpt_deformer import PARAMETERS as DEFORMER
+from fpt_ros.cycle.parameter_tuner import PARAMETERS as TUNER
+from fpt_ros.cycle.parameter_tuner import TUNE_FROM
+from fpt_ros.cycle.plant_simulator import STRUCTURE
+from fpt_ros.cycle.stage import REALTIME
+from fpt_ros.cycle.trajectory_generator import PARAMETERS as TRAJECTORY
 from fpt_ros.denoising.streaming import ORDER
-from fpt_ros.loop import description
-from fpt_ros.loop.approximate_model import MODEL
-from fpt_ros.loop.denoiser import METHOD
-from fpt_ros.loop.fpt_deformer import PARAMETERS as DEFORMER
-from fpt_ros.loop.parameter_tuner import PARAMETERS as TUNER
-from fpt_ros.loop.parameter_tuner import TUNE_FROM
-from fpt_ros.loop.plant_simulator import STRUCTURE
-from fpt_ros.loop.stage import REALTIME
-from fpt_ros.loop.trajectory_generator import PARAMETERS as TRAJECTORY
+from fpt_ros.experiments import description
 from fpt_ros.parameters import Parameter, prefixed
 from fpt_ros.tuning import COEFFICIENTS, GAIN, WEIGHTS
 

@@ -3,7 +3,7 @@
 A law is written on plain numbers, element by element: it reads its vectors by index, writes its
 results into ``out``, and keeps what it remembers in a small ``state`` vector. Such code runs as it
 stands on tuples, lists, arrays and mapped memory, gives the same bits on all of them, and is
-compiled as it stands by :mod:`fpt_ros.loop.compiled`. So it uses no slices, no ``**``, no
+compiled as it stands by :mod:`fpt_ros.engine.compiled`. So it uses no slices, no ``**``, no
 allocation, and raises nothing: where it is not defined it writes NaN, and the stage says what is
 wrong.
 """

@@ -9,8 +9,8 @@ from launch.event_handlers import OnProcessExit, OnShutdown
 from launch.substitutions import LaunchConfiguration
 from launch_ros.actions import Node
 
-from fpt_ros.loop.experiment import load
-from fpt_ros.loop.stages import STAGES
+from fpt_ros.cycle.stages import STAGES
+from fpt_ros.experiments.experiment import load
 from launch import LaunchDescription
 
 

@@ -4,6 +4,7 @@ import fcntl
 import tempfile
 from pathlib import Path
 
+import made_runs
 import pytest
 
 DOMAINS = range(1, 101)
@@ -26,3 +27,21 @@ def ros_domain(monkeypatch):
             yield domain
             return
     pytest.fail("all ROS domains are in use by other tests")
+
+
+@pytest.fixture(scope="session")
+def make():
+    """A run of an experiment: ``make(name, variant, duration)``."""
+    return made_runs.made
+
+
+@pytest.fixture(scope="session")
+def shorten():
+    """What a recording killed after some cycles would hold."""
+    return made_runs.cut
+
+
+@pytest.fixture(scope="session")
+def hand_made():
+    """A run of numbers given by hand."""
+    return made_runs.by_hand

@@ -2,8 +2,8 @@
 
 import numpy as np
 
-from fpt_ros.loop import experiment
-from fpt_ros.loop.engine import Engine
+from fpt_ros.engine.engine import Engine
+from fpt_ros.experiments import experiment
 from fpt_ros.messages.topics import COMMAND, DESIRED, JOINT_STATES, STATE_ESTIMATE, TUNING
 
 

@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from fpt_ros.loop.run import Run
+from fpt_ros.runs.run import Run
 
 
 @dataclass(frozen=True)

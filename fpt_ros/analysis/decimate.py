@@ -3,7 +3,7 @@
 import numpy as np
 from numpy.typing import NDArray
 
-from fpt_ros.loop.run import Array
+from fpt_ros.runs.run import Array
 
 LIMIT = 4000
 """Points of a curve; a figure is never as many pixels wide."""

@@ -13,7 +13,7 @@ from matplotlib.figure import Figure
 from fpt_ros.analysis import latency_figure, motion_figures, response_figures, style
 from fpt_ros.analysis.captions import CAPTIONS, thesis_figures
 from fpt_ros.analysis.panels import Panels
-from fpt_ros.loop.run import Run
+from fpt_ros.runs.run import Run
 
 
 @dataclass(frozen=True)

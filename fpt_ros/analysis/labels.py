@@ -5,7 +5,7 @@ from collections.abc import Callable, Sequence
 from matplotlib.lines import Line2D
 
 from fpt_ros.analysis import signals, style
-from fpt_ros.loop.run import Run
+from fpt_ros.runs.run import Run
 
 Entry = Line2D | tuple[Line2D, ...]
 """Of a legend: one line, or several beside each other."""

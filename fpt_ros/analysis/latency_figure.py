@@ -8,8 +8,8 @@ from matplotlib.ticker import FormatStrFormatter, LogLocator, NullFormatter
 
 from fpt_ros.analysis import signals, style
 from fpt_ros.analysis.panels import Panels
-from fpt_ros.loop.latency import Latencies
-from fpt_ros.loop.run import Run
+from fpt_ros.runs.latency import Latencies
+from fpt_ros.runs.run import Run
 
 ROW = "latency"
 

@@ -8,7 +8,7 @@ from typing import cast
 import numpy as np
 
 from fpt_ros.analysis import signals
-from fpt_ros.loop.run import Array, Run
+from fpt_ros.runs.run import Array, Run
 
 Summary = Mapping[str, object]
 """What :func:`summary` gives, or the same read back from JSON."""

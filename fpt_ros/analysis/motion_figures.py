@@ -5,7 +5,7 @@ from collections.abc import Sequence
 from fpt_ros.analysis import metrics, signals, style
 from fpt_ros.analysis.labels import all_names, colour_of, followed
 from fpt_ros.analysis.panels import Panels
-from fpt_ros.loop.run import Run
+from fpt_ros.runs.run import Run
 
 
 def tracking(runs: Sequence[Run]) -> Panels | None:

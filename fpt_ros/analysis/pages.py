@@ -1,15 +1,21 @@
 """HTML pages from templates that share one style sheet."""
 
+from functools import partial
 from importlib.resources import files
 from typing import Any
 
-from jinja2 import Environment, FunctionLoader, StrictUndefined
+from jinja2 import ChoiceLoader, Environment, FunctionLoader, StrictUndefined
 
 
-def render(template: str, **values: Any) -> str:
-    """The page of a template beside this file; every name in it has to be given."""
+def render(template: str, package: str = "fpt_ros.analysis", **values: Any) -> str:
+    """The page of a package's template; every name in it has to be given.
+
+    What it includes, the style sheet, stands beside this file.
+    """
     environment = Environment(
-        loader=FunctionLoader(_source),
+        loader=ChoiceLoader(
+            [FunctionLoader(partial(_source, package)), FunctionLoader(_source_here)]
+        ),
         autoescape=True,
         undefined=StrictUndefined,
         trim_blocks=True,
@@ -18,5 +24,9 @@ def render(template: str, **values: Any) -> str:
     return environment.get_template(template).render(values)
 
 
-def _source(name: str) -> str:
-    return files("fpt_ros.analysis").joinpath(name).read_text(encoding="utf-8")
+def _source(package: str, name: str) -> str | None:
+    path = files(package).joinpath(name)
+    return path.read_text(encoding="utf-8") if path.is_file() else None
+
+
+_source_here = partial(_source, "fpt_ros.analysis")

@@ -11,7 +11,7 @@ from matplotlib.ticker import MaxNLocator
 
 from fpt_ros.analysis import signals, style
 from fpt_ros.analysis.labels import Entry, run_labels
-from fpt_ros.loop.run import Array, Run
+from fpt_ros.runs.run import Array, Run
 
 ABREAST = 3
 """Panels beside each other where there is one run only and its panels are small."""

@@ -14,9 +14,9 @@ from fpt_ros.analysis.metrics import baselines, comparison, summary
 from fpt_ros.analysis.tables import content
 from fpt_ros.analysis.whole_files import write_whole
 from fpt_ros.errors import BadInput
-from fpt_ros.loop.run import Run
 from fpt_ros.messages.frames import SECOND
 from fpt_ros.parameters import Value
+from fpt_ros.runs.run import Run
 
 TEMPLATE = "report.html.j2"
 

@@ -7,8 +7,8 @@ import numpy as np
 from fpt_ros.analysis import signals, style
 from fpt_ros.analysis.labels import all_names, colour_of, realised
 from fpt_ros.analysis.panels import Panels
-from fpt_ros.loop.run import Array, Run
-from fpt_ros.loop.tuned import FACTOR
+from fpt_ros.cycle.tuned import FACTOR
+from fpt_ros.runs.run import Array, Run
 
 _Window = tuple[float, float]
 """Excerpt of a run, first and last time [s]."""

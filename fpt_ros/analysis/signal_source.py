@@ -10,7 +10,7 @@ import numpy as np
 
 from fpt_ros.denoising.noisy import EXAMPLE, PREFIX, parse
 from fpt_ros.errors import BadInput
-from fpt_ros.loop.run import Array
+from fpt_ros.runs.run import Array
 
 if TYPE_CHECKING:
     import pandas as pd

@@ -11,14 +11,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fpt_ros import registry
+from fpt_ros.cycle.plant_simulator import PlantSimulator
+from fpt_ros.cycle.trajectory_generator import TrajectoryGenerator
 from fpt_ros.errors import BadInput
-from fpt_ros.loop.nominal import sample
-from fpt_ros.loop.plant_simulator import PlantSimulator
-from fpt_ros.loop.run import Array, Run
-from fpt_ros.loop.trajectory_generator import TrajectoryGenerator
+from fpt_ros.experiments.nominal import sample
 from fpt_ros.messages.frames import SECOND
 from fpt_ros.parameters import Value
 from fpt_ros.plants import Plant
+from fpt_ros.runs.run import Array, Run
 
 Stamps = NDArray[np.int64]
 """(N,) times of messages [ns]."""

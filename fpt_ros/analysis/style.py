@@ -11,7 +11,7 @@ from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
 
 from fpt_ros.analysis import decimate
-from fpt_ros.loop.run import Array
+from fpt_ros.runs.run import Array
 
 Style = dict[str, Any]
 """What matplotlib draws a line with."""

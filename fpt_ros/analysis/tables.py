@@ -11,7 +11,7 @@ from rich.text import Text
 from fpt_ros.analysis import signals
 from fpt_ros.analysis.labels import labels_of
 from fpt_ros.analysis.metrics import Row, Summary, baselines, comparison, summary
-from fpt_ros.loop.run import Run
+from fpt_ros.runs.run import Run
 
 QUANTITIES = {
     "rms_settled": "error, rms settled",

@@ -2,7 +2,7 @@
 
 from fpt_ros.bags.schemas import decode
 from fpt_ros.errors import BadInput
-from fpt_ros.loop.latency import CYCLES, HISTOGRAM, LARGEST, MISSED, Latencies, parse
+from fpt_ros.runs.latency import CYCLES, HISTOGRAM, LARGEST, MISSED, Latencies, parse
 
 TOPIC, TYPE = "/diagnostics", "diagnostic_msgs/msg/DiagnosticArray"
 

@@ -5,7 +5,7 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 
 from fpt_ros.errors import BadInput
-from fpt_ros.loop import parameter_file
+from fpt_ros.experiments import parameter_file
 from fpt_ros.parameters import Value, Values
 
 NAME = "parameters.yaml"

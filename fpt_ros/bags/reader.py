@@ -8,14 +8,14 @@ from pathlib import Path
 from fpt_ros.bags import diagnostics, parameter_text
 from fpt_ros.bags.scan import CUT, DAMAGED, Item, Scan, Source, files
 from fpt_ros.bags.writer import END, INFO
+from fpt_ros.cycle.plant_simulator import PlantSimulator
 from fpt_ros.errors import BadInput
-from fpt_ros.loop.latency import Latencies
-from fpt_ros.loop.plant_simulator import PlantSimulator
-from fpt_ros.loop.run import Collector, Run
 from fpt_ros.messages.cdr import Codec, MalformedMessage
 from fpt_ros.messages.frames import SECOND
 from fpt_ros.messages.topics import BY_NAME, Topic
 from fpt_ros.parameters import Value
+from fpt_ros.runs.latency import Latencies
+from fpt_ros.runs.run import Collector, Run
 
 
 @dataclass

@@ -5,12 +5,12 @@ from types import TracebackType
 from typing import Self
 
 from fpt_ros.bags.writer import BagWriter
-from fpt_ros.loop.engine import Engine
-from fpt_ros.loop.experiment import Experiment
-from fpt_ros.loop.run import describe
+from fpt_ros.engine.engine import Engine
+from fpt_ros.experiments.experiment import Experiment
 from fpt_ros.messages.cdr import Codec
 from fpt_ros.messages.frames import Frame
 from fpt_ros.messages.topics import DEPTH, LOOP_TOPICS, Topic
+from fpt_ros.runs.run import describe
 
 
 class EngineRecording:

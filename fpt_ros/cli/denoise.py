@@ -101,7 +101,7 @@ def denoise(
 def _run(source: "Source", method: str, settings: list[str]) -> "Result":
     from fpt_ros.denoising.offline import denoise as run
     from fpt_ros.errors import BadInput
-    from fpt_ros.loop.parameter_file import scalar
+    from fpt_ros.experiments.parameter_file import scalar
 
     options = {}
     for text in settings:

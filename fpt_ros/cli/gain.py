@@ -11,9 +11,9 @@ import typer
 from fpt_ros.cli.options import Json, Name, Settings, Variant, experiment_of
 
 if TYPE_CHECKING:
-    from fpt_ros.analysis.gain import Gain
-    from fpt_ros.analysis.gain_motion import Point
-    from fpt_ros.loop.experiment import Experiment
+    from fpt_ros.experiments.experiment import Experiment
+    from fpt_ros.gain.contraction import Gain
+    from fpt_ros.gain.motion import Point
 
 Out = Annotated[
     Path | None,
@@ -48,7 +48,7 @@ def gain(
     if plot is not None and plot.suffix.lower().removeprefix(".") not in KINDS:
         raise BadInput(f"--plot {plot}: it takes a name that ends with .png or .svg")
     experiment = experiment_of(name, variant, set_, None, None)
-    from fpt_ros.analysis.gain import bounds
+    from fpt_ros.gain.contraction import bounds
 
     found = bounds(experiment).with_chaos()
     points, tried = _tried(experiment, found)
@@ -75,7 +75,7 @@ def gain(
 
 def warn_about_gain(experiment: "Experiment") -> None:
     """One line on standard error where the experiment's A is not one with which it contracts."""
-    from fpt_ros.analysis.gain import warning
+    from fpt_ros.gain.contraction import warning
 
     text = warning(experiment)
     if text:
@@ -84,12 +84,12 @@ def warn_about_gain(experiment: "Experiment") -> None:
 
 def _tried(experiment: "Experiment", found: "Gain") -> "tuple[list[Point] | None, dict[str, Any]]":
     """A run with the recommended A, with less where it fails or the tuned model asks for less."""
-    from fpt_ros.analysis.gain import bounds
-    from fpt_ros.analysis.gain_motion import along
     from fpt_ros.analysis.metrics import summary
+    from fpt_ros.engine.engine import Engine
     from fpt_ros.errors import RunFailed
-    from fpt_ros.loop.engine import Engine
-    from fpt_ros.loop.run import Run, describe
+    from fpt_ros.gain.contraction import bounds
+    from fpt_ros.gain.motion import along
+    from fpt_ros.runs.run import Run, describe
 
     reason, A = "", found.recommended
     for attempt in range(ATTEMPTS if found.sign else 0):
@@ -163,9 +163,9 @@ def _draw(
     experiment: "Experiment", found: "Gain", points: "list[Point] | None", paths: list[Path]
 ) -> None:
     from fpt_ros.analysis import style
-    from fpt_ros.analysis.gain_figure import figure
-    from fpt_ros.analysis.gain_motion import course
     from fpt_ros.errors import BadInput
+    from fpt_ros.gain.figure import figure
+    from fpt_ros.gain.motion import course
 
     low, high = found.range
     plant = experiment.loop().plant.plant

@@ -9,7 +9,7 @@ def list_experiments(json: Json = False) -> None:
     Example: fpt list
     """
     from fpt_ros.cli.output import console, print_json
-    from fpt_ros.loop.experiment import BASE, available, load
+    from fpt_ros.experiments.experiment import BASE, available, load
 
     experiments = []
     for name, variants in available().items():

@@ -8,7 +8,7 @@ import typer
 from fpt_ros.errors import BadInput
 
 if TYPE_CHECKING:
-    from fpt_ros.loop.experiment import Experiment
+    from fpt_ros.experiments.experiment import Experiment
 
 Name = Annotated[
     str, typer.Argument(metavar="NAME", help="An experiment (fpt list), or a parameter file.")
@@ -44,7 +44,7 @@ def experiment_of(
     Raises:
         BadInput: any of them is not valid.
     """
-    from fpt_ros.loop.experiment import load
+    from fpt_ros.experiments.experiment import load
 
     return load(name, variant, settings or (), duration, seed)
 

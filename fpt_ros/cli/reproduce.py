@@ -12,8 +12,8 @@ if TYPE_CHECKING:
 
     from rich.table import Table
 
-    from fpt_ros.analysis.claims import Chapter
-    from fpt_ros.analysis.reproduce import Outcome
+    from fpt_ros.thesis.claim import Chapter
+    from fpt_ros.thesis.page import Outcome
 
 Chapters = Annotated[
     list[int] | None,
@@ -33,8 +33,8 @@ def reproduce(
     """
     from time import perf_counter
 
-    from fpt_ros.analysis.reproduce import as_json, check_directory, judge_all, wanted, write_page
     from fpt_ros.cli.output import console, print_json, progress_bar
+    from fpt_ros.thesis.page import as_json, check_directory, judge_all, wanted, write_page
 
     asked = wanted(chapter or ())
     check_directory(out)

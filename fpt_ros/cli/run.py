@@ -21,7 +21,7 @@ from fpt_ros.cli.options import (
 )
 
 if TYPE_CHECKING:
-    from fpt_ros.loop.experiment import Experiment
+    from fpt_ros.experiments.experiment import Experiment
 
 Composed = Annotated[bool, typer.Option("--composed", help="The five nodes in one process.")]
 Realtime = Annotated[bool, typer.Option("--realtime", help="On the wall clock, not in lockstep.")]

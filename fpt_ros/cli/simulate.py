@@ -39,9 +39,9 @@ def simulate(
     from fpt_ros.analysis.metrics import summary
     from fpt_ros.bags.recording import EngineRecording
     from fpt_ros.cli.output import print_result, progress_bar
+    from fpt_ros.engine.engine import Engine
     from fpt_ros.errors import Interrupted, RunFailed
-    from fpt_ros.loop.engine import Engine
-    from fpt_ros.loop.run import Run, describe
+    from fpt_ros.runs.run import Run, describe
 
     failure: RunFailed | Interrupted | None = None
     started = perf_counter()

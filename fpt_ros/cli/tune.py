@@ -101,7 +101,7 @@ def tune(
 
 
 def _default_out(name: str) -> Path:
-    from fpt_ros.loop.experiment import is_path
+    from fpt_ros.experiments.experiment import is_path
 
     given = Path(name)
     return (

@@ -1,8 +1,8 @@
 """All five stages in one process, on one wait set: for when latency counts more than isolation."""
 
-from fpt_ros.loop.denoiser import Denoiser
-from fpt_ros.loop.parameter_tuner import ParameterTuner
-from fpt_ros.loop.trajectory_generator import TrajectoryGenerator
+from fpt_ros.cycle.denoiser import Denoiser
+from fpt_ros.cycle.parameter_tuner import ParameterTuner
+from fpt_ros.cycle.trajectory_generator import TrajectoryGenerator
 from fpt_ros.nodes.fpt_deformer import DeformerNode
 from fpt_ros.nodes.plant_node import PlantNode
 from fpt_ros.nodes.process import run_process

@@ -1,6 +1,6 @@
 """Console script ``denoiser``."""
 
-from fpt_ros.loop.denoiser import Denoiser
+from fpt_ros.cycle.denoiser import Denoiser
 from fpt_ros.nodes.stage_node import run_stage
 
 

@@ -2,7 +2,7 @@
 
 from std_msgs.msg import Float64MultiArray
 
-from fpt_ros.loop.fpt_deformer import FptDeformer
+from fpt_ros.cycle.fpt_deformer import FptDeformer
 from fpt_ros.messages.frames import Command, Frame
 from fpt_ros.nodes.process import run_process
 from fpt_ros.nodes.stage_node import StageNode

@@ -16,12 +16,12 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 
+from fpt_ros.cycle.parameter_tuner import ParameterTuner
+from fpt_ros.cycle.plant_simulator import PlantSimulator
+from fpt_ros.cycle.stages import STAGES
 from fpt_ros.errors import BadInput, FptError, Interrupted, RunFailed
-from fpt_ros.loop.description import NODE as RECORDER
-from fpt_ros.loop.experiment import Experiment
-from fpt_ros.loop.parameter_tuner import ParameterTuner
-from fpt_ros.loop.plant_simulator import PlantSimulator
-from fpt_ros.loop.stages import STAGES
+from fpt_ros.experiments.description import NODE as RECORDER
+from fpt_ros.experiments.experiment import Experiment
 from fpt_ros.nodes import cores, shared_memory
 
 STALL = 60.0

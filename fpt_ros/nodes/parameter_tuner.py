@@ -1,6 +1,6 @@
 """Console script ``parameter_tuner``."""
 
-from fpt_ros.loop.parameter_tuner import ParameterTuner
+from fpt_ros.cycle.parameter_tuner import ParameterTuner
 from fpt_ros.nodes.stage_node import run_stage
 
 

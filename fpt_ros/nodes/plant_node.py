@@ -8,9 +8,8 @@ command acts, or the safe effort where it is older than ``command_timeout``.
 from collections import deque
 from time import monotonic, time_ns
 
+from fpt_ros.cycle.plant_simulator import PlantSimulator
 from fpt_ros.errors import RunFailed
-from fpt_ros.loop.latency import HISTOGRAM, LARGEST, MISSED, Histogram
-from fpt_ros.loop.plant_simulator import PlantSimulator
 from fpt_ros.messages.cdr import Codec, MalformedMessage
 from fpt_ros.messages.frames import SECOND, Command
 from fpt_ros.messages.topics import COMMAND, DEPTH, JOINT_STATES
@@ -18,6 +17,7 @@ from fpt_ros.nodes.process import report_progress
 from fpt_ros.nodes.qos import LATEST
 from fpt_ros.nodes.recorded_until import RECORDED_UNTIL, TIME, decode_time
 from fpt_ros.nodes.stage_node import ParameterisedNode
+from fpt_ros.runs.latency import HISTOGRAM, LARGEST, MISSED, Histogram
 
 WINDOW = DEPTH * 3 // 4
 """Cycles that the loop may be ahead of the recorder: less than the history that publishers keep."""
@@ -164,7 +164,7 @@ class PlantNode(ParameterisedNode):
 
     def health(self) -> tuple[str, dict[str, object]]:
         """State of the run; in real time misses, and latencies from sensor to command [ms]: of
-        those since the last report, and the distribution of all (:mod:`fpt_ros.loop.latency`).
+        those since the last report, and the distribution of all (:mod:`fpt_ros.runs.latency`).
         """
         t = (self._stamp - self._origin) / SECOND
         values: dict[str, object] = {"time [s]": f"{t:.3f}"}

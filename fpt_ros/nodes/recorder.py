@@ -16,9 +16,9 @@ from pathlib import Path
 from fpt_ros import __version__
 from fpt_ros.bags.writer import BagWriter
 from fpt_ros.errors import RunFailed
-from fpt_ros.loop import description
-from fpt_ros.loop.experiment import BASE, complete
-from fpt_ros.loop.parameter_file import ParameterFile, read
+from fpt_ros.experiments import description
+from fpt_ros.experiments.experiment import BASE, complete
+from fpt_ros.experiments.parameter_file import ParameterFile, read
 from fpt_ros.messages.frames import SECOND
 from fpt_ros.messages.topics import DEPTH, LOOP_TOPICS, TUNING
 from fpt_ros.nodes.loop_node import LoopNode, message_class

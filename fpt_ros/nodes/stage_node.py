@@ -6,8 +6,8 @@ from typing import Any
 from rcl_interfaces.msg import ParameterEvent
 from rclpy.parameter import Parameter as RosParameter
 
+from fpt_ros.cycle.stage import Stage
 from fpt_ros.errors import RunFailed
-from fpt_ros.loop.stage import Stage
 from fpt_ros.messages.cdr import Codec, MalformedMessage
 from fpt_ros.messages.frames import SECOND, Frame
 from fpt_ros.nodes.loop_node import LoopNode

@@ -1,6 +1,6 @@
 """Console script ``trajectory_generator``."""
 
-from fpt_ros.loop.trajectory_generator import TrajectoryGenerator
+from fpt_ros.cycle.trajectory_generator import TrajectoryGenerator
 from fpt_ros.nodes.stage_node import run_stage
 
 

@@ -12,7 +12,7 @@ from functools import lru_cache
 import numpy as np
 
 from fpt_ros.errors import BadInput
-from fpt_ros.loop import parameter_file
+from fpt_ros.experiments import parameter_file
 from fpt_ros.parameters import Value
 
 FORM = (

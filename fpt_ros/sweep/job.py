@@ -4,7 +4,7 @@ import json
 from dataclasses import dataclass
 from typing import Any, cast
 
-from fpt_ros.loop.experiment import Experiment, load
+from fpt_ros.experiments.experiment import Experiment, load
 from fpt_ros.parameters import Value
 from fpt_ros.sweep.grid import Point, Space
 
@@ -23,7 +23,7 @@ class Job:
     """All that a process has to know of a sweep.
 
     Attributes:
-        name, variant, settings, duration: as of :func:`~fpt_ros.loop.experiment.load`.
+        name, variant, settings, duration: as of :func:`~fpt_ros.experiments.experiment.load`.
         space: the points.
         lists: ``NODE.PARAM`` of which single elements are varied, and the whole list.
         metrics: columns of the results.

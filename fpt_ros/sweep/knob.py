@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, cast
 
 from fpt_ros.errors import BadInput
-from fpt_ros.loop.experiment import Experiment
+from fpt_ros.experiments.experiment import Experiment
 from fpt_ros.parameters import Parameter, Value
 from fpt_ros.sweep.definition import parameter_of
 from fpt_ros.sweep.grid import Target, parse, target

@@ -13,7 +13,7 @@ from matplotlib.figure import Figure
 
 from fpt_ros.analysis import style
 from fpt_ros.errors import BadInput
-from fpt_ros.loop.run import Array
+from fpt_ros.runs.run import Array
 from fpt_ros.sweep.job import COMPLETE
 from fpt_ros.sweep.results import Table, onset, read
 

@@ -4,8 +4,8 @@ import os
 from pathlib import Path
 
 from fpt_ros.errors import BadInput
-from fpt_ros.loop import description, parameter_file
-from fpt_ros.loop.experiment import load
+from fpt_ros.experiments import description, parameter_file
+from fpt_ros.experiments.experiment import load
 from fpt_ros.parameters import Value, Values
 from fpt_ros.sweep.tune import Result, Task
 

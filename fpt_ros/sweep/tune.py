@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import cast
 
 from fpt_ros.errors import BadInput, RunFailed
-from fpt_ros.loop.experiment import Experiment, load
+from fpt_ros.experiments.experiment import Experiment, load
 from fpt_ros.parameters import Value
 from fpt_ros.sweep.grid import Space, parse
 from fpt_ros.sweep.ground import experiments_of

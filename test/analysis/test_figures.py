@@ -7,8 +7,8 @@ from fpt_ros.analysis import decimate, style
 from fpt_ros.analysis.captions import CAPTIONS
 from fpt_ros.analysis.figures import charts
 from fpt_ros.analysis.labels import labels_of
-from fpt_ros.loop.latency import EDGES, Latencies
-from fpt_ros.loop.run import Run, Series
+from fpt_ros.runs.latency import EDGES, Latencies
+from fpt_ros.runs.run import Run, Series
 
 TORA = ["tracking", "tracking_error", "phase_trajectories", "responses", "responses_zoom"]
 TORA += ["forces", "uncontrolled"]

@@ -7,7 +7,7 @@ import pytest
 from fpt_ros import registry
 from fpt_ros.analysis import signals
 from fpt_ros.analysis.metrics import Row, baselines, comparison, rms, summary
-from fpt_ros.loop.run import Run
+from fpt_ros.runs.run import Run
 
 NAN = float("nan")
 

@@ -11,7 +11,7 @@ from fpt_ros.analysis.metrics import summary
 from fpt_ros.analysis.report import differences, write_report
 from fpt_ros.analysis.tables import console_table, content, number_text, ratio_text
 from fpt_ros.errors import BadInput
-from fpt_ros.loop.run import Run
+from fpt_ros.runs.run import Run
 
 
 @pytest.fixture(scope="module")

@@ -3,13 +3,13 @@
 from pathlib import Path
 
 from fpt_ros.bags.recording import EngineRecording
-from fpt_ros.loop import experiment
-from fpt_ros.loop.engine import Engine
-from fpt_ros.loop.experiment import Experiment
-from fpt_ros.loop.run import Series
+from fpt_ros.engine.engine import Engine
+from fpt_ros.experiments import experiment
+from fpt_ros.experiments.experiment import Experiment
 from fpt_ros.messages.frames import Frame
 from fpt_ros.messages.topics import Topic
 from fpt_ros.parameters import Value
+from fpt_ros.runs.run import Series
 
 INFO = {
     "experiment": "tora",

@@ -17,11 +17,11 @@ from fpt_ros.bags import reader
 from fpt_ros.bags.schemas import schema
 from fpt_ros.bags.writer import BagWriter
 from fpt_ros.errors import BadInput
-from fpt_ros.loop.latency import CYCLES, HISTOGRAM, LARGEST, MISSED
-from fpt_ros.loop.run import Run, Series
 from fpt_ros.messages.cdr import Codec
 from fpt_ros.messages.frames import Command, Desired, JointStates
 from fpt_ros.messages.topics import COMMAND, DESIRED, JOINT_STATE, JOINT_STATES
+from fpt_ros.runs.latency import CYCLES, HISTOGRAM, LARGEST, MISSED
+from fpt_ros.runs.run import Run, Series
 
 CODEC = Codec(JOINT_STATES)
 TIME_POINTS = [0, 1_000_000, 2_000_000]

@@ -22,7 +22,7 @@ from fpt_ros.bags import reader
 from fpt_ros.bags.schemas import offered_qos, schema, yaml_text
 from fpt_ros.bags.writer import BagWriter
 from fpt_ros.errors import BadInput, RunFailed
-from fpt_ros.loop import experiment
+from fpt_ros.experiments import experiment
 from fpt_ros.messages.cdr import Codec
 from fpt_ros.messages.frames import JointStates
 from fpt_ros.messages.topics import BY_NAME, JOINT_STATE, JOINT_STATES, JOINT_TRAJECTORY, Topic

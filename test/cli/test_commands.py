@@ -81,7 +81,7 @@ def test_interrupted_engine_closes_its_recording(tmp_path):
 
 
 def test_a_file_of_ones_own(tmp_path):
-    from fpt_ros.loop.locate import config_directory
+    from fpt_ros.experiments.locate import config_directory
 
     text = (config_directory() / "tora.yaml").read_text()
     (tmp_path / "mine.yaml").write_text(text.replace("A: -0.1", "A: -0.5"))

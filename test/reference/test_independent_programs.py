@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 from engine_runs import topics_of, tracking_errors
 
+from fpt_ros.engine.engine import Engine
 from fpt_ros.errors import Diverged
-from fpt_ros.loop import experiment
-from fpt_ros.loop.engine import Engine
+from fpt_ros.experiments import experiment
 
 
 def assert_same(found, expected, tolerance=1e-9):

@@ -5,10 +5,10 @@ import math
 import pytest
 
 from fpt_ros.analysis.metrics import summary
+from fpt_ros.engine.engine import Engine
 from fpt_ros.errors import Diverged
-from fpt_ros.loop.engine import Engine
-from fpt_ros.loop.experiment import load
-from fpt_ros.loop.run import Run, describe
+from fpt_ros.experiments.experiment import load
+from fpt_ros.runs.run import Run, describe
 
 
 def result(variant, sigma, *settings, name="noisy_tora"):

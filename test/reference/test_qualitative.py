@@ -11,9 +11,9 @@ import numpy as np
 import pytest
 from engine_runs import chatter, settled_rms, topics_of, tracking_errors
 
+from fpt_ros.engine.engine import Engine
 from fpt_ros.errors import Diverged
-from fpt_ros.loop import experiment
-from fpt_ros.loop.engine import Engine
+from fpt_ros.experiments import experiment
 
 VDP = ("m", "mu", "mu_c", "k", "beta", "lambda")
 EXACT_VDP = np.array([10.0, 1.0, 3.0, 100.0, 1.0, 2.0])

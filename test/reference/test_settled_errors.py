@@ -8,10 +8,10 @@ import pytest
 from engine_runs import chatter, run, settled_rms, topics_of
 
 from fpt_ros.analysis.metrics import summary
+from fpt_ros.engine.engine import Engine
 from fpt_ros.errors import Diverged
-from fpt_ros.loop import experiment
-from fpt_ros.loop.engine import Engine
-from fpt_ros.loop.run import Run, describe
+from fpt_ros.experiments import experiment
+from fpt_ros.runs.run import Run, describe
 
 # reference.json: settled rms of the tracking error per coordinate, and the tolerance to use, of 43
 # runs. The numbers were computed by programs that share no line with this package and were handed

@@ -4,7 +4,7 @@ import pytest
 from engine_runs import chatter, settled_rms, topics_of
 
 from fpt_ros.errors import BadInput
-from fpt_ros.loop.experiment import load
+from fpt_ros.experiments.experiment import load
 from fpt_ros.sweep import job as jobs
 from fpt_ros.sweep.definition import define
 from fpt_ros.sweep.executor import keep_memory

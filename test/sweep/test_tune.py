@@ -1,8 +1,8 @@
 import pytest
 
 from fpt_ros.errors import BadInput, RunFailed
-from fpt_ros.loop.experiment import load
-from fpt_ros.loop.locate import config_directory
+from fpt_ros.experiments.experiment import load
+from fpt_ros.experiments.locate import config_directory
 from fpt_ros.sweep import tune
 from fpt_ros.sweep.metric import metric
 from fpt_ros.sweep.overlay import check_overlay, write_overlay

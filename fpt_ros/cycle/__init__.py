@@ -1,0 +1,1 @@
+"""The control cycle: the five stages, and the loop that joins them."""

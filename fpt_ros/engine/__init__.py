@@ -1,0 +1,1 @@
+"""The in-process engine: the cycle compiled, over a whole run, without ROS."""

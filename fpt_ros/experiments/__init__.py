@@ -1,0 +1,1 @@
+"""Experiments: parameter files, their variants, and whether what they name fits together."""

@@ -1,0 +1,76 @@
+"""Whether the stages of a loop fit each other."""
+
+from typing import TYPE_CHECKING
+
+from fpt_ros.error_relaxation import RELAXATIONS
+from fpt_ros.errors import BadInput
+from fpt_ros.experiments.workspace import check_workspace
+from fpt_ros.parameters import word
+from fpt_ros.tuning import COEFFICIENTS
+
+if TYPE_CHECKING:
+    from fpt_ros.experiments.experiment import Loop
+
+MOTIONS = 32
+"""Nominal motions that a process remembers to be within the workspace."""
+
+
+def check_fit(loop: "Loop") -> None:
+    """The stages are of one plant, and can do what is asked of them.
+
+    Raises:
+        BadInput: they are not, or cannot.
+    """
+    plant, model = loop.plant.coordinates, loop.deformer.coordinates
+    if model != plant:
+        raise BadInput(
+            f"fpt_deformer.model: {word(loop.deformer.values, 'model')} has the coordinates "
+            f"{', '.join(model)}, the plant {', '.join(plant)}"
+        )
+    loop.deformer.check_controlled(loop.trajectory.controlled)
+    loop.deformer.weights_of(loop.trajectory.controlled)
+    loop.trajectory.locate(plant)
+    order = loop.plant.plant.order
+    name = word(loop.plant.values, "plant")
+    given = loop.denoiser.values["order"]
+    if given != order:
+        raise BadInput(
+            f"denoiser.order: {given} given, the plant {name} answers with order {order}"
+        )
+    relaxation, used = loop.trajectory.relaxation, loop.trajectory.values["error_relaxation"]
+    if relaxation.order != order:
+        fitting = [each for each, one in RELAXATIONS.items() if one.order == order]
+        raise BadInput(
+            f"trajectory_generator.error_relaxation: {used} is for a response of order "
+            f"{relaxation.order}, the plant {name} answers with order {order}: "
+            f"{' or '.join(fitting)}"
+        )
+    tunes = loop.tuner.active and loop.tuner.law.tunes == COEFFICIENTS
+    if tunes and loop.tuner.values["model"] != loop.deformer.values["model"]:
+        raise BadInput(
+            f"parameter_tuner.model: {word(loop.tuner.values, 'model')} is not the deformer's, "
+            f"{word(loop.deformer.values, 'model')}"
+        )
+    _check_motion(loop)
+
+
+def _check_motion(loop: "Loop") -> None:
+    """The nominal motion stays in the plant's workspace; a motion found good is not asked again."""
+    plant, trajectory = loop.plant, loop.trajectory
+    key = (
+        plant.plant.workspace,
+        tuple(plant.coefficients),
+        plant.cycles,
+        plant.dt,
+        trajectory.trajectory.nominal,
+        trajectory.controlled,
+        tuple(trajectory.constants),
+    )
+    if key not in _good_motions:
+        check_workspace(loop)
+        if len(_good_motions) >= MOTIONS:
+            _good_motions.pop(next(iter(_good_motions)))
+        _good_motions[key] = None
+
+
+_good_motions: dict[tuple[object, ...], None] = {}

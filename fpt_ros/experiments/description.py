@@ -1,0 +1,31 @@
+"""What an experiment says about itself: the recorder's section of its parameter file."""
+
+from fpt_ros.cycle.stage import REALTIME
+from fpt_ros.parameters import Parameter, Values
+
+NODE = "recorder"
+
+PARAMETERS = (
+    Parameter("experiment", "its name; empty: that of the parameter file", "", live=False),
+    Parameter("variant", "its name; empty: that of the parameter files", "", live=False),
+    Parameter("title", "what it is, in a few words", "", live=False),
+    Parameter("shows", "what it shows", "", live=False),
+    Parameter("thesis", "section and figures of the thesis", "", live=False),
+    Parameter(
+        "settle_time",
+        "from here on the settled error counts",
+        0.0,
+        unit="s",
+        minimum=0.0,
+        live=False,
+    ),
+    Parameter("cycles", "length of the run; 0: not known", 0, minimum=0, live=False),
+    Parameter("directory", "where to record; must not exist", "", live=False),
+    Parameter("await_tuning", "a tuner is in the loop: its topic is part of it", False, live=False),
+    REALTIME,
+)
+
+
+def parameters(given: Values) -> tuple[Parameter, ...]:
+    """Parameters of the recorder, in the form of a stage's."""
+    return PARAMETERS

@@ -1,0 +1,299 @@
+"""Experiments: parameter files, their variants, and what was changed on the command line."""
+
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass, field, replace
+from functools import partial
+from pathlib import Path
+from typing import cast
+
+from fpt_ros.cycle.denoiser import FILTER_OF_NOISE, METHOD, SYNCHRONISED, Denoiser
+from fpt_ros.cycle.fpt_deformer import FptDeformer
+from fpt_ros.cycle.parameter_tuner import ParameterTuner, in_the_loop
+from fpt_ros.cycle.plant_simulator import PlantSimulator
+from fpt_ros.cycle.stage import CYCLE_TIME, Stage
+from fpt_ros.cycle.stages import STAGES
+from fpt_ros.cycle.trajectory_generator import TrajectoryGenerator
+from fpt_ros.errors import BadInput
+from fpt_ros.experiments import description, parameter_file
+from fpt_ros.experiments.checks import check_fit
+from fpt_ros.experiments.locate import config_directory
+from fpt_ros.experiments.parameter_file import ParameterFile
+from fpt_ros.parameters import Parameter, Value, Values, resolve
+
+BASE = "adaptive"
+"""Name of the variant that is the file itself, without an overlay."""
+
+SECTIONS: dict[str, Callable[[Values], tuple[Parameter, ...]]] = {
+    **{name: stage.parameters for name, stage in STAGES.items()},
+    description.NODE: description.parameters,
+}
+"""The nodes of a file, each with its parameters as a function of what is given."""
+
+
+@dataclass(frozen=True)
+class Loop:
+    """The five stages of one run, ready for cycle 0."""
+
+    plant: PlantSimulator
+    denoiser: Denoiser
+    trajectory: TrajectoryGenerator
+    tuner: ParameterTuner
+    deformer: FptDeformer
+
+    def stages(self) -> tuple[Stage, ...]:
+        """All of them, in the order of events."""
+        return self.plant, self.denoiser, self.trajectory, self.tuner, self.deformer
+
+
+@dataclass(frozen=True)
+class Experiment:
+    """A run that could be made: complete, checked parameters of every node.
+
+    Attributes:
+        name, variant: what it goes by.
+        nodes: parameters by node; the recorder's section is the description.
+        source: words that name it on the command line, as they were given.
+    """
+
+    name: str
+    variant: str
+    nodes: dict[str, dict[str, Value]] = field(repr=False)
+    source: tuple[str, ...] = field(default=(), repr=False, compare=False)
+
+    @property
+    def about(self) -> dict[str, Value]:
+        """The description: title, shows, thesis, settle_time."""
+        return self.nodes[description.NODE]
+
+    def loop(self) -> Loop:
+        """Fresh stages.
+
+        Raises:
+            BadInput: the stages do not fit each other.
+        """
+        loop = Loop(
+            PlantSimulator(self.nodes[PlantSimulator.name]),
+            Denoiser(self.nodes[Denoiser.name]),
+            TrajectoryGenerator(self.nodes[TrajectoryGenerator.name]),
+            ParameterTuner(self.nodes[ParameterTuner.name]),
+            FptDeformer(self.nodes[FptDeformer.name]),
+        )
+        check_fit(loop)
+        return loop
+
+    def with_values(self, node: str, **changes: Value) -> "Experiment":
+        """The same experiment with some parameters of a node changed."""
+        return replace(self, nodes={**self.nodes, node: {**self.nodes[node], **changes}})
+
+    def for_graph(self, realtime: bool) -> "Experiment":
+        """The same experiment, its nodes told what only a graph of them has to know."""
+        nodes = {node: dict(values) for node, values in self.nodes.items()}
+        for values in nodes.values():
+            values["realtime"] = realtime
+            if CYCLE_TIME.name in values:
+                values[CYCLE_TIME.name] = self.nodes[PlantSimulator.name]["dt"]
+        return replace(self, nodes=nodes)
+
+    def write(self, path: Path) -> None:
+        """Write it as one parameter file for all nodes."""
+        parameter_file.write(path, self.nodes)
+
+
+def available() -> dict[str, list[str]]:
+    """Names of all experiments of this package, each with its variants, the base first."""
+    found: dict[str, list[str]] = {}
+    for path in sorted(config_directory().glob("*.yaml")):
+        name, _, variant = path.stem.partition(".")
+        variants = found.setdefault(name, [BASE])
+        if variant:
+            variants.append(variant)
+    return found
+
+
+def load(
+    name: str,
+    variant: str = BASE,
+    settings: Iterable[str] = (),
+    duration: float | None = None,
+    seed: int | None = None,
+) -> Experiment:
+    """Read an experiment and apply a variant and settings to it.
+
+    Args:
+        name: of an experiment of the package, or the path of a parameter file.
+        variant: its overlay ``NAME.VARIANT.yaml``; ``adaptive``: none; or the path of an overlay
+            file of any name, whose stem is then the variant's name.
+        settings: ``NODE.PARAM=VALUE`` each.
+        duration: length of the run [s].
+        seed: random seed.
+
+    Raises:
+        BadInput: anything that is not valid, in one line that says what is.
+    """
+    path, source = _path_of(name), (name, *(("--variant", variant) if variant != BASE else ()))
+    base, overlay = parameter_file.read(path), ParameterFile()
+    for section in SECTIONS:
+        if section not in base.nodes:
+            raise BadInput(f"{path} lacks the section '{section}': it takes {', '.join(SECTIONS)}")
+    _check_nodes(path, base)
+    if variant != BASE:
+        overlay_path = _variant_path(path, variant)
+        overlay = parameter_file.read(overlay_path)
+        _check_nodes(overlay_path, overlay)
+        if is_path(variant):
+            _check_owner(overlay_path, overlay, path.stem)
+            variant = overlay_path.stem
+    file = base.overlay(overlay)
+    changes = [_setting(text) for text in settings]
+    if duration is not None:
+        changes.append((PlantSimulator.name, "duration", duration))
+    if seed is not None:
+        changes.append((PlantSimulator.name, "seed", seed))
+    for node, parameter, value in changes:
+        _apply(file, node, parameter, value)
+    file.nodes[description.NODE].update(experiment=path.stem, variant=variant)
+    _share_synchronised(file)
+    _filter_noise(file)
+    in_loop = in_the_loop(file.nodes[ParameterTuner.name])
+    for node, parameter, value in changes:
+        if parameter == "await_tuning" and value != in_loop:
+            raise BadInput(f"{node}.await_tuning follows from parameter_tuner.method: {in_loop}")
+    for section_values in file.nodes.values():
+        section_values.pop("await_tuning", None)
+    file.shared["await_tuning"] = in_loop
+    _check_shared(path, file, base)
+    explicit = {(node, parameter) for node, parameter, _ in changes}
+    nodes = {node: _resolve(node, file, base, explicit) for node in SECTIONS}
+    experiment = Experiment(path.stem, variant, nodes, source)
+    experiment.loop()
+    return experiment
+
+
+def complete(file: ParameterFile) -> dict[str, dict[str, Value]]:
+    """Complete, checked parameters of the nodes that a file has sections for.
+
+    Raises:
+        BadInput: as :func:`load`.
+    """
+    return {node: _resolve(node, file, file, set()) for node in SECTIONS if node in file.nodes}
+
+
+def _share_synchronised(file: ParameterFile) -> None:
+    """What the deformer is told, or all nodes, holds for deformer and denoiser alike."""
+    name = SYNCHRONISED.name
+    given = file.nodes[FptDeformer.name].get(name, file.shared.get(name))
+    for node in (FptDeformer.name, Denoiser.name):
+        file.nodes[node].pop(name, None)
+    if given is not None:
+        file.shared[name] = given
+
+
+def _filter_noise(file: ParameterFile) -> None:
+    """Noisy measurements are filtered where nobody has chosen how."""
+    plant = {**file.shared, **file.nodes[PlantSimulator.name]}
+    noisy = any(plant.get(f"noise.{kind}") for kind in ("position", "velocity"))
+    if noisy and METHOD.name not in {**file.shared, **file.nodes[Denoiser.name]}:
+        file.nodes[Denoiser.name][METHOD.name] = FILTER_OF_NOISE
+
+
+def _check_nodes(path: Path, file: ParameterFile) -> None:
+    """Every section of a file is a node's."""
+    for node in file.nodes:
+        if node not in SECTIONS:
+            raise BadInput(f"{path}: there is no node '{node}', only {', '.join(SECTIONS)}")
+
+
+def _check_shared(path: Path, file: ParameterFile, base: ParameterFile) -> None:
+    """Every shared value is known to a node, or was to one in the base file."""
+    known: set[str] = set()
+    for version in (base, file):
+        for node, parameters in SECTIONS.items():
+            known |= _declared(parameters, {**version.shared, **version.nodes[node]})
+    for name in file.shared:
+        if name not in known:
+            raise BadInput(
+                f"{path}: no node has the parameter '{name}' of the section "
+                f"{parameter_file.SHARED}: there are {', '.join(sorted(known))}"
+            )
+
+
+def is_path(text: str) -> bool:
+    """Whether a word is the path of a parameter file, and no name."""
+    return text.endswith((".yaml", ".yml")) or "/" in text
+
+
+def _check_owner(path: Path, overlay: ParameterFile, experiment: str) -> None:
+    """An overlay given by its path is of this experiment.
+
+    What it says itself (``recorder.experiment``) counts, otherwise its name, ``NAME.VARIANT.yaml``.
+    """
+    owner = overlay.nodes.get(description.NODE, {}).get("experiment")
+    if owner is None and path.stem.partition(".")[0] in available():
+        owner = path.stem.partition(".")[0]
+    if owner is not None and owner != experiment:
+        raise BadInput(f"{path} is of the experiment {owner}, not of {experiment}")
+
+
+def _path_of(name: str) -> Path:
+    if is_path(name):
+        return Path(name)
+    if name not in available():
+        raise BadInput(f"no experiment '{name}': there are {', '.join(available())}")
+    return config_directory() / f"{name}.yaml"
+
+
+def _variant_path(path: Path, variant: str) -> Path:
+    if is_path(variant):
+        return Path(variant)
+    found = [p.stem.partition(".")[2] for p in sorted(path.parent.glob(f"{path.stem}.*.yaml"))]
+    if variant not in found:
+        valid = ", ".join([BASE, *found])
+        raise BadInput(f"{path.stem} has no variant '{variant}': it has {valid}")
+    return path.with_name(f"{path.stem}.{variant}.yaml")
+
+
+def _setting(text: str) -> tuple[str, str, object]:
+    """Split ``NODE.PARAM=VALUE``."""
+    target, equals, value = text.partition("=")
+    node, dot, parameter = target.strip().partition(".")
+    if not (equals and dot and parameter):
+        raise BadInput(f"--set {text}: it takes NODE.PARAM=VALUE, as in fpt_deformer.A=-0.2")
+    return node, parameter, parameter_file.scalar(value)
+
+
+def _apply(file: ParameterFile, node: str, parameter: str, value: object) -> None:
+    """Set one value; one that nodes share is set for all of them."""
+    if node not in SECTIONS:
+        raise BadInput(f"there is no node '{node}': there are {', '.join(SECTIONS)}")
+    target = file.nodes[node]
+    if parameter in file.shared and parameter not in target:
+        target = file.shared
+    target[parameter] = cast(Value, value)
+
+
+def _resolve(
+    node: str, file: ParameterFile, base: ParameterFile, explicit: set[tuple[str, str]]
+) -> dict[str, Value]:
+    """Complete, checked parameters of a node.
+
+    A value of the base file that belongs to a law which the variant replaced is dropped.
+    """
+    declared = partial(_declared, SECTIONS[node])
+    before = declared({**base.shared, **base.nodes[node]})
+    given = {**file.shared, **file.nodes[node]}
+    now = declared(given)
+    own = {
+        name: value
+        for name, value in file.nodes[node].items()
+        if name in now or name not in before or (node, name) in explicit
+    }
+    shared = {
+        name: value
+        for name, value in file.shared.items()
+        if name in now or (node, name) in explicit
+    }
+    return resolve(SECTIONS[node](given), {**shared, **own}, node)
+
+
+def _declared(parameters: Callable[[Values], tuple[Parameter, ...]], given: Values) -> set[str]:
+    return {parameter.name for parameter in parameters(given)}

@@ -1,1 +1,0 @@
-"""The control loop: its stages, the experiments that configure them, and the in-process engine."""

@@ -1,0 +1,46 @@
+"""The graph on the wall clock."""
+
+from command import fpt_json
+from mcap_ros2.reader import read_ros2_messages
+
+from fpt_ros.bags.reader import read_run
+
+
+def test_cycles_follow_the_wall_clock(tmp_path):
+    bag = tmp_path / "bag"
+    result = fpt_json(
+        "run", "tora", "--variant", "nonadaptive", "--realtime", "--duration", 6, "--record", bag,
+        "--set", "plant_simulator.dt=0.005",
+    )  # fmt: skip
+    assert result["complete"] is True, result["reason"]
+    assert result["wall_time"] >= 5.9
+    run = read_run(bag)
+    stamps = run.topics["joint_states"].stamps
+    assert len(stamps) == 1200
+    assert set(stamps[1:] - stamps[:-1]) == {5_000_000}
+    assert stamps[0] > 1_700_000_000 * 10**9
+    reports = [
+        {entry.key: entry.value for entry in message.ros_msg.status[0].values}
+        for message in read_ros2_messages(bag / "bag_0.mcap", topics=["/diagnostics"])
+        if message.ros_msg.status[0].name == "plant_simulator"
+    ]
+    assert any("deadline misses" in report for report in reports)
+    assert any("latency p99 [ms]" in report for report in reports)
+    told = run.latency
+    assert told is not None
+    assert told.cycles == 1200  # the last report comes with the last cycle
+    assert told.total + told.missed >= 1199  # all but the first came in time, late or never
+    assert told.total <= 1199
+    largest = max(float(r["latency max [ms]"]) for r in reports if "latency max [ms]" in r)
+    assert 1e3 * told.largest == largest
+    assert result["real_time"]["missed_deadlines"] == told.missed
+
+
+def test_late_commands_give_way_to_the_safe_effort():
+    from fpt_ros.experiments.experiment import load
+
+    plant = load("tora", settings=["plant_simulator.safe_effort=0.5"]).loop().plant
+    command = plant.safe_command(0)
+    assert command.effort == [0.5, 0.5, 0.5]
+    plant.advance(command, 0)
+    assert list(plant.measure(1_000_000, 1).effort) == [0.5, 0.5, 0.5]
