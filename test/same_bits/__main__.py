@@ -40,6 +40,7 @@ def options() -> argparse.Namespace:
     )
     parser.add_argument("--cycles", type=int, default=CYCLES, help=f"of each run ({CYCLES})")
     parser.add_argument("--full", action="store_true", help="every run as long as its file says")
+    parser.add_argument("--verbose", "-v", action="store_true", help="all fields that differ")
     parser.add_argument("--topics-only", action="store_true", help="leave the final states out")
     chosen = parser.parse_args()
     if chosen.cycles < 1:
@@ -66,9 +67,11 @@ class Progress:
 
 
 def compare(
-    chosen: list[Case], new: Tree, kept: Path, folder: Path, topics_only: bool
+    chosen: list[Case], new: Tree, kept: Path, folder: Path, topics_only: bool, verbose: bool
 ) -> tuple[int, int]:
     """Run the cases in the working tree, each compared as soon as it is there.
+
+    The first difference of each is told; all of them if ``verbose``.
 
     Returns:
         Number of cases that differ, and of all cycles.
@@ -90,6 +93,8 @@ def compare(
         differ += bool(lines)
         total += cycles(now)
         progress.clear()
+        if len(lines) > 1 and not verbose:
+            lines = [f"{lines[0]}, and {len(lines) - 1} fields more"]
         for i, line in enumerate(lines):
             print(f"{name if i == 0 else ' ' * len(name)}  {line}", flush=True)
         progress("working tree", name)
@@ -121,7 +126,7 @@ def run(chosen: argparse.Namespace, say: Callable[[str], None]) -> int:
             progress.clear()
         forget_machine_code(keep=new.digest)
         say(f"running the working tree against {commit[:12]} ({chosen.rev})")
-        differ, total = compare(wanted, new, kept, Path(name), chosen.topics_only)
+        differ, total = compare(wanted, new, kept, Path(name), chosen.topics_only, chosen.verbose)
     verdict = f"{differ} DIFFER" if differ else "the same bits"
     say(f"{len(wanted)} variants, {total} cycles: {verdict} ({monotonic() - start:.0f} s)")
     return 1 if differ else 0
