@@ -1,5 +1,6 @@
 # make demo   the TORA experiment over DDS, recorded and reported
 # make test   all tests
+# make same-bits REV=...   compares the working tree with a commit, to the last bit
 # make bench  all benchmarks (three quarters of an hour; the machine should be quiet)
 # All set up what is missing: a .venv with ROS 2 Jazzy (from PyPI) and this package in it.
 
@@ -13,10 +14,10 @@ BIN := $(VENV)/bin
 READY := $(VENV)/.ready
 DEMO := demo
 
-.PHONY: help setup demo test bench lint clean
+.PHONY: help setup demo test same-bits bench lint clean
 
 help:
-	@echo "make demo | test | bench | lint | setup | clean"
+	@echo "make demo | test | same-bits | bench | lint | setup | clean"
 
 setup: $(READY)
 
@@ -34,6 +35,10 @@ demo: $(READY)
 
 test: $(READY)
 	@$(BIN)/python -m pytest -n 2 --dist worksteal
+
+REV ?= HEAD
+same-bits: $(READY)
+	@$(BIN)/python test/same_bits $(REV) $(OPTIONS)
 
 bench: $(READY)
 	@$(BIN)/python -m pip install --quiet --disable-pip-version-check -r requirements-bench.txt
