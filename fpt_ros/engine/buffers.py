@@ -58,8 +58,8 @@ class Buffers:
             for topic, record in RECORDS.items()
         }
         width = 2 * len(plant.coordinates) if plant.noisy else 0
-        messages: Any = tuple(records.values())
-        self.rows = CycleRows(*messages, noise=np.empty((length, width)))
+        rows: Any = (*records.values(), np.empty((length, width)))
+        self.rows = CycleRows(*rows)
 
     def series(self, first: int, end: int) -> dict[str, Series]:
         """The messages of some cycles, the first in row 0; views."""

@@ -211,8 +211,8 @@ def _memory(loop: Loop, states: Sequence[Array]) -> CycleMemory:
         stage.layout.on(state) if stage.layout is not None else empty(TunerMemory)
         for stage, state in zip(loop.stages(), states, strict=True)
     ]
-    command = CommandRow(*np.full((2, n), np.nan))
-    return CycleMemory(*records, command)
+    records.append(CommandRow(*np.full((2, n), np.nan)))
+    return CycleMemory(*records)
 
 
 def _work(loop: Loop) -> CycleWork:
