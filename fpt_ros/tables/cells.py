@@ -1,0 +1,77 @@
+"""What a cell of a text is: a number, a time, missing, a word."""
+
+import math
+import re
+from enum import StrEnum
+
+from fpt_ros.tables import times
+
+MISSING = frozenset(
+    ("", "nan", "na", "n/a", "#n/a", "#na", "null", "none", "nil", "nat", "missing")
+    + ("-", "--", "---", "?", ".", "*", "-nan", "+nan", "-nan(ind)", "1.#qnan", "-1.#ind")
+    + ("<na>", "#value!", "#div/0!", "#num!", "#ref!", "#name?")
+)
+"""Words for a missing sample, in small letters."""
+
+TRUE = frozenset(("true", "yes", "on"))
+FALSE = frozenset(("false", "no", "off"))
+
+NUMBER = re.compile(r"[+-]?(\d+(\.\d*)?|\.\d+)([eE][+-]?\d+)?|[+-]?inf(inity)?", re.ASCII | re.I)
+EXPONENT = re.compile(r"(?<=[\d.])[dD](?=[+-]?\d)")
+"""Of Fortran's double precision, as in 1.5D-03."""
+
+
+class Cell(StrEnum):
+    """Kinds of cells."""
+
+    NUMBER = "number"
+    TIME = "time"
+    CLOCK = "time of day"
+    BOOL = "true or false"
+    MISSING = "missing"
+    WORD = "word"
+    GARBLED = "digits, but no number"
+
+
+def number(cell: str, decimal: str) -> float:
+    """The number that a cell is; NaN if it is none.
+
+    Stricter than ``float``: no underscores, and a point only if it is the decimal mark.
+    """
+    text = cell.strip()
+    if decimal == ",":
+        if "." in text:
+            return math.nan
+        text = text.replace(",", ".")
+    if not NUMBER.fullmatch(text):
+        text = EXPONENT.sub("e", text.replace("\u2212", "-"))
+        if not NUMBER.fullmatch(text):
+            return math.nan
+    return float(text)
+
+
+def truth(cell: str) -> float:
+    """1 for true, 0 for false; NaN if it is neither."""
+    word = cell.strip().casefold()
+    return 1.0 if word in TRUE else 0.0 if word in FALSE else math.nan
+
+
+def missing(cell: str) -> bool:
+    """Whether the cell says that its sample is missing."""
+    return cell.strip().casefold() in MISSING
+
+
+def kind(cell: str, decimal: str) -> Cell:
+    """What a cell is."""
+    text = cell.strip()
+    if text.casefold() in MISSING:
+        return Cell.MISSING
+    if not math.isnan(number(text, decimal)):
+        return Cell.NUMBER
+    if not math.isnan(truth(text)):
+        return Cell.BOOL
+    if times.is_time(text):
+        return Cell.TIME
+    if times.is_clock(text):
+        return Cell.CLOCK
+    return Cell.GARBLED if any(c.isdigit() for c in text) else Cell.WORD
