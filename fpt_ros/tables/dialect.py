@@ -67,9 +67,11 @@ class Rows:
     def _split(self) -> Iterator[list[str]]:
         for line in self._lines:
             self._count += 1
-            yield next(csv.reader([line], delimiter=" ", skipinitialspace=True), []) if (
-                '"' in line
-            ) else line.split()
+            yield (
+                next(csv.reader([line], delimiter=" ", skipinitialspace=True), [])
+                if ('"' in line)
+                else line.split()
+            )
 
 
 def is_comment(line: str) -> bool:

@@ -19,7 +19,6 @@ SHOWN = 24
 class Odd:
     """A cell that is not of its column's kind."""
 
-    row: int
     line: int
     cell: str
 
@@ -52,7 +51,6 @@ class Filling:
     spoiled: int = 0
     whole: bool = True
     zone: bool = False
-    rows: int = 0
 
     def add(self, cells: Sequence[str], lines: Sequence[int]) -> None:
         """Convert the cells of the next rows; ``lines``: theirs in the file."""
@@ -68,10 +66,10 @@ class Filling:
         else:
             part = np.array(cells, dtype=object)
         if part.dtype.kind in "fmM":
-            for at in np.flatnonzero(np.isnan(part) if part.dtype.kind == "f" else np.isnat(part)):
-                self._look(Odd(self.rows + int(at), lines[at], cells[at]))
+            lost = np.isnan(part) if part.dtype.kind == "f" else np.isnat(part)
+            for at in np.flatnonzero(lost).tolist():
+                self._look(Odd(lines[at], cells[at]))
         self.parts.append(part)
-        self.rows += len(cells)
 
     def _numbers(self, cells: Sequence[str]) -> NDArray[Any]:
         joined = "".join(cells)
@@ -97,8 +95,10 @@ class Filling:
         what = kind(odd.cell, self.decimal)
         if what is Cell.MISSING:
             return
-        if what is Cell.WORD or (what is Cell.BOOL and self.kind is Cell.NUMBER) or (
-            "\0" in odd.cell
+        if (
+            what is Cell.WORD
+            or (what is Cell.BOOL and self.kind is Cell.NUMBER)
+            or ("\0" in odd.cell)
         ):
             self.words.append(odd)
             return

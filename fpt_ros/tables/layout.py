@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from fpt_ros.errors import BadInput
 from fpt_ros.tables import headings
 from fpt_ros.tables.cells import Cell, kind
-from fpt_ros.tables.dialect import BLANKS, MARKS, ONE, Dialect, Rows, is_comment
+from fpt_ros.tables.dialect import BLANKS, MARKS, Dialect, Rows, is_comment
 
 Row = tuple[int, list[str]]
 """The number of its (last) line, and its cells."""
@@ -133,7 +133,8 @@ def _first(rows: list[Row], kinds: list[Cell], dialect: Dialect) -> int | None:
     numbers among words belong to the data too: a bad cell in the first row does not make a header.
     """
     whole = all(cell.strip().isdigit() for cell in rows[-1][1])
-    for at, (_, row) in enumerate(rows):
+    at = 0
+    for at, (_, row) in enumerate(rows):  # noqa: B007 used behind the loop
         found = [kind(cell, dialect.decimal) for cell in row]
         fits = len(row) == len(kinds) and all(
             own in (theirs, Cell.MISSING) or theirs not in VALUES
@@ -192,9 +193,7 @@ def _above(rows: list[Row], width: int) -> list[Row]:
     return found[-1:]
 
 
-def _in_comments(
-    comments: list[Row], first: int, kinds: list[Cell], dialect: Dialect
-) -> list[Row]:
+def _in_comments(comments: list[Row], first: int, kinds: list[Cell], dialect: Dialect) -> list[Row]:
     """A header in the last comment above the data, as of ``numpy.savetxt`` and ``rostopic``."""
     for line, row in reversed([each for each in comments if each[0] < first]):
         cells = _joined(row) if dialect.separator == BLANKS else row
@@ -227,9 +226,7 @@ def _check(rows: list[Row], first: int, width: int, name: str) -> None:
         )
 
 
-def _misfit(
-    name: str, header: tuple[str, ...], line: int, first: Row, dialect: Dialect
-) -> str:
+def _misfit(name: str, header: tuple[str, ...], line: int, first: Row, dialect: Dialect) -> str:
     width = len(first[1])
     hint = "give each column one name"
     if dialect.separator == "," and width == 2 * len(header):

@@ -131,16 +131,18 @@ def _unzip(raw: BinaryIO) -> BinaryIO:
 
 
 def _unzstd(raw: BinaryIO) -> BinaryIO:
-    return cast(
-        BinaryIO, zstandard.ZstdDecompressor().stream_reader(raw, read_across_frames=True)
-    )
+    return cast(BinaryIO, zstandard.ZstdDecompressor().stream_reader(raw, read_across_frames=True))
+
+
+def _unxz(raw: BinaryIO) -> BinaryIO:
+    return cast(BinaryIO, lzma.LZMAFile(raw))
 
 
 PACKED: tuple[tuple[bytes, Callable[[BinaryIO], BinaryIO]], ...] = (
     (b"\x1f\x8b", lambda raw: cast(BinaryIO, gzip.GzipFile(fileobj=raw))),
     (b"\x28\xb5\x2f\xfd", _unzstd),
     (b"BZh", lambda raw: cast(BinaryIO, bz2.BZ2File(raw))),
-    (b"\xfd7zXZ\x00", lambda raw: cast(BinaryIO, lzma.LZMAFile(raw))),
+    (b"\xfd7zXZ\x00", _unxz),
 )
 """First bytes of what is compressed, and what unpacks it."""
 

@@ -1,7 +1,7 @@
 """A table: columns of equal length, and remarks on how they were read."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass
 from enum import StrEnum
 from typing import Any
 
@@ -72,14 +72,14 @@ class Table:
         name: of the file.
         layout: how the file was read, as in ``separated by ';', decimal commas``.
         remarks: what a user should know: cells and lines that were not taken as they stood.
-        rate: samples a second, if the file says so (WAV).
+        lines: (n,) of the rows in a file of text; elsewhere ``None``.
     """
 
     columns: tuple[Column, ...]
     name: str
     layout: str = ""
     remarks: tuple[str, ...] = ()
-    rate: float | None = field(default=None)
+    lines: NDArray[np.uint32] | None = None
 
     def __len__(self) -> int:
         """Number of rows."""
@@ -102,9 +102,9 @@ class Table:
         names = ", ".join(each.title for each in self.columns if each.numeric) or "none"
         raise BadInput(f"{self.name} has no column '{name}': columns of numbers are {names}")
 
-    def with_remarks(self, *remarks: str) -> "Table":
-        """The same with more remarks."""
-        return replace(self, remarks=(*self.remarks, *remarks))
+    def where(self, row: int) -> str:
+        """A row in words, from 0: ``line 5`` of the file where it is text, else ``row 3``."""
+        return f"row {row + 1}" if self.lines is None else f"line {self.lines[row]}"
 
 
 def titled(name: str, unit: str) -> str:

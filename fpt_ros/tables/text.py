@@ -6,9 +6,11 @@ from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, field, replace
 from itertools import islice
 
+import numpy as np
+from numpy.typing import NDArray
+
 from fpt_ros.errors import BadInput
 from fpt_ros.tables import headings
-
 from fpt_ros.tables.dialect import Dialect, Rows, is_comment, named_separator, sniff
 from fpt_ros.tables.encoding import encoding, shown, text
 from fpt_ros.tables.filling import Filling
@@ -35,6 +37,7 @@ class _Body:
     layout: Layout
     fillings: list[Filling]
     lines: "array[int]" = field(default_factory=lambda: array("Q"))
+    all_lines: list[NDArray[np.uint32]] = field(default_factory=list)
     blank: list[int] = field(default_factory=list)
     repeated: list[int] = field(default_factory=list)
     cut: int = 0
@@ -55,6 +58,7 @@ class _Body:
         if rows:
             for filling, cells in zip(self.fillings, zip(*rows, strict=True), strict=True):
                 filling.add(cells, self.lines)
+        self.all_lines.append(np.array(self.lines, dtype=np.uint32))
         self.lines = array("Q")
 
     def _rows(self, lines: Iterable[str]) -> Iterator[list[str]]:
@@ -188,8 +192,9 @@ def _read(
         for column, filling in zip(columns, fillings, strict=True)
         if filling.words and not column.refusal
     ]
+    lines = np.concatenate(body.all_lines)
     told = [str(dialect), str(layout)] + [shown(code)] * (shown(code) != "UTF-8")
-    table = Table(columns, opened.name, ", ".join(told), (*body.remarks(), *remarks))
+    table = Table(columns, opened.name, ", ".join(told), (*body.remarks(), *remarks), lines)
     return table, comma
 
 
@@ -211,5 +216,3 @@ def _columns(layout: Layout, fillings: list[Filling]) -> tuple[Column, ...]:
             fillings, names, titles, units, split, strict=True
         )
     )
-
-

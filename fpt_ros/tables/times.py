@@ -117,7 +117,7 @@ def text(values: NDArray[np.datetime64] | NDArray[np.timedelta64], zone: str = "
         ns = ns % DAY
     known = ns[~nat]
     unit = next((u for u, size in UNITS if not np.any(known % size)), "ns")
-    found = np.datetime_as_string(ns.astype("datetime64[ns]"), unit=unit)
+    found = np.datetime_as_string(ns.astype("datetime64[ns]"), unit=unit)  # type: ignore[call-overload]
     tail = "Z" if zone and not daily else ""
     return [
         "" if lost else (word[11:] if daily else word + tail)
