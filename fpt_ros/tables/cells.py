@@ -7,40 +7,11 @@ from enum import StrEnum
 from fpt_ros.tables import times
 
 MISSING = frozenset(
-    [
-        "",
-        *[
-            "nan",
-            "na",
-            "n/a",
-            "#n/a",
-            "#na",
-            "<na>",
-            "null",
-            "none",
-            "nil",
-            "nat",
-            "missing",
-            "-",
-            "--",
-            "---",
-            "?",
-            ".",
-            "*",
-        ],
-    ]
-    + [
-        "-nan",
-        "+nan",
-        "-nan(ind)",
-        "1.#qnan",
-        "-1.#ind",
-        "#value!",
-        "#div/0!",
-        "#num!",
-        "#ref!",
-        "#name?",
-    ]
+    (
+        *("", "-", "--", "---", "?", ".", "*", "missing", "null", "none", "nil"),
+        *("nan", "na", "n/a", "#n/a", "#na", "<na>", "nat", "-nan", "+nan", "-nan(ind)"),
+        *("1.#qnan", "-1.#ind", "#value!", "#div/0!", "#num!", "#ref!", "#name?"),
+    )
 )
 """Words for a missing sample, in small letters."""
 
