@@ -6,6 +6,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
+from numpy.typing import NDArray
 
 from fpt_ros.analysis import style
 from fpt_ros.analysis.estimates import Estimate, name_of, step_of
@@ -47,9 +48,9 @@ def picture(source: Source, found: Estimate, kind: str) -> bytes:
     return buffer.getvalue()
 
 
-def _order(source: Source) -> Array:
+def _order(source: Source) -> NDArray[np.intp]:
     """The rows in the order of time."""
-    order: Array = np.argsort(source.spacing.index, kind="stable")
+    order: NDArray[np.intp] = np.argsort(source.spacing.index, kind="stable")
     return order
 
 
@@ -59,7 +60,7 @@ def _time(source: Source) -> Array:
     return source.axis.values
 
 
-def _record(axes: Axes, time: Array, order: Array, found: Estimate) -> None:
+def _record(axes: Axes, time: Array, order: NDArray[np.intp], found: Estimate) -> None:
     record: style.Style = {"color": style.WANTED, "linewidth": 0.9}
     own: style.Style = {"color": style.COORDINATES[0], "linewidth": 1.3}
     style.draw(axes, time, found.measured[order], record)
@@ -78,7 +79,9 @@ def _record(axes: Axes, time: Array, order: Array, found: Estimate) -> None:
     axes.legend(handles=handles, loc="lower right", bbox_to_anchor=(1.0, 1.0), ncols=3)
 
 
-def _residual(axes: Axes, time: Array, order: Array, source: Source, found: Estimate) -> None:
+def _residual(
+    axes: Axes, time: Array, order: NDArray[np.intp], source: Source, found: Estimate
+) -> None:
     residual = found.residual[order]
     style.draw(axes, time, residual, THIN)
     for limit in (-2.0 * found.result.sigma, 2.0 * found.result.sigma):
@@ -132,7 +135,7 @@ def _distribution(axes: Axes, found: Estimate) -> None:
     limit = min(WIDEST * sigma, max(float(np.max(np.abs(residual))), 3.0 * sigma))
     edges = np.linspace(-limit, limit, BINS)
     inside = np.clip(residual, -limit, limit)
-    axes.hist(inside, edges, color=style.COORDINATES[0], alpha=0.5, log=True)
+    axes.hist(inside, edges.tolist(), color=style.COORDINATES[0], alpha=0.5, log=True)
     middle = (edges[1:] + edges[:-1]) / 2.0
     normal = np.exp(-0.5 * (middle / sigma) ** 2) / (np.sqrt(2.0 * np.pi) * sigma)
     expected = len(residual) * normal * (edges[1] - edges[0])

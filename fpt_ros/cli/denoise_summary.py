@@ -1,4 +1,4 @@
-"""What ``fpt denoise`` tells: where the signal is from, what was found, and what is odd about it."""
+"""What ``fpt denoise`` tells: how the file was read, what was found, and what is odd about it."""
 
 import sys
 from collections.abc import Sequence

@@ -50,7 +50,7 @@ class Column:
     @property
     def title(self) -> str:
         """The heading with its unit."""
-        return self.heading or titled(self.name, self.unit)
+        return self.heading or titled(self.name, "" if self.kind is Kind.TIME else self.unit)
 
     def numbers(self) -> NDArray[np.float64]:
         """The values as floats (n,), NaN where one is missing.
