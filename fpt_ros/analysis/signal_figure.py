@@ -114,6 +114,7 @@ def _spectrum(axes: Axes, source: Source, found: Estimate) -> None:
         level = 2.0 * step * found.result.sigma**2
         axes.axhline(level, **DASHED)
     axes.set_ylabel("power density")
+    axes.text(0.98, 0.95, "dashed: white", ha="right", va="top", transform=axes.transAxes)
 
 
 def _frequency(unit: str, source: Source) -> str:

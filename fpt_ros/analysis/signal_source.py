@@ -131,8 +131,9 @@ def _signals(table: Table, axis: TimeAxis | None) -> tuple[Column, ...]:
         for each in others
         if axis is None or not (headings.is_time_name(each.name) or _counts(each))
     ]
-    if found or others:
-        return tuple(found or others)
+    filled = [each for each in found if not np.isnan(each.values).all()]
+    if filled or found or others:
+        return tuple(filled or found or others)
     refused = [each.refusal for each in table.columns if each.refusal]
     why = f": {refused[-1]}" if refused else ""
     if axis is None:

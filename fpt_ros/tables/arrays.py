@@ -1,7 +1,6 @@
 """Tables of arrays: NumPy's NPY and NPZ, MATLAB's MAT, and WAV."""
 
 import warnings
-import zipfile
 from collections.abc import Iterator, Mapping
 from typing import Any
 
@@ -12,6 +11,10 @@ from fpt_ros.errors import BadInput
 from fpt_ros.tables import headings
 from fpt_ros.tables.opening import Opened
 from fpt_ros.tables.table import Column, Kind, Table, distinct
+
+DAMAGED = Exception
+"""What the libraries raise where a file is cut or damaged: anything, struct.error and zlib.error
+among others."""
 
 FEW = 4
 """An array of fewer rows than this, and more columns, holds its signals in rows."""
@@ -95,7 +98,7 @@ def read_npy(opened: Opened) -> Table:
     """Read an array of NumPy."""
     try:
         values = np.load(opened.file, allow_pickle=False)
-    except (ValueError, EOFError) as error:
+    except DAMAGED as error:
         raise BadInput(_unreadable(opened, "NumPy array", error)) from error
     if values.ndim not in (1, 2):
         raise BadInput(f"{opened.name}: {values.ndim} dimensions, 1 or 2 are needed")
@@ -109,7 +112,7 @@ def read_npz(opened: Opened, wanted: str | None) -> Table:
     try:
         with np.load(opened.file, allow_pickle=False) as archive:
             arrays = {key: archive[key] for key in archive.files}
-    except (ValueError, EOFError, zipfile.BadZipFile) as error:
+    except DAMAGED as error:
         raise BadInput(_unreadable(opened, "NumPy archive", error)) from error
     return from_arrays(arrays, opened.name, "NumPy archive", wanted)
 
@@ -117,13 +120,12 @@ def read_npz(opened: Opened, wanted: str | None) -> Table:
 def read_mat(opened: Opened, wanted: str | None) -> Table:
     """Read a MAT file; fields of structures are ``structure.field``."""
     from scipy.io import loadmat
-    from scipy.io.matlab import MatReadError
 
     if opened.head(512).startswith(b"MATLAB 7.3") or b"HDF" in opened.head(600)[510:]:
         raise BadInput(f"{opened.name} is of MATLAB 7.3 (HDF5): save it with -v7")
     try:
         found = loadmat(opened.file, simplify_cells=True)
-    except (MatReadError, ValueError, NotImplementedError, TypeError, OSError) as error:
+    except DAMAGED as error:
         raise BadInput(_unreadable(opened, "MAT file", error)) from error
     arrays = dict(_inside({key: x for key, x in found.items() if not key.startswith("__")}))
     return from_arrays(arrays, opened.name, "MAT file", wanted)
@@ -147,7 +149,7 @@ def read_wav(opened: Opened) -> Table:
             warnings.simplefilter("always")
             rate, values = wavfile.read(opened.file)
         remarks = [str(one.message) for one in caught if "non-data" not in str(one.message)]
-    except (ValueError, EOFError) as error:
+    except DAMAGED as error:
         raise BadInput(_unreadable(opened, "WAV file", error)) from error
     if not values.size:
         raise BadInput(f"{opened.name} is empty: it has no samples")

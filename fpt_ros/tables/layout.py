@@ -66,16 +66,19 @@ def lay_out(lines: list[str], dialect: Dialect, name: str) -> Layout:
             f"{name} has no column of numbers: line {rows[-1][0]} begins with "
             f"'{rows[-1][1][0][:30]}', needed is a table with one signal a column"
         )
-    start = rows[first][0]
+    start, even = rows[first][0], [row for _, row in rows[first:] if len(row) == width]
+    kinds = [_majority([row[at] for row in even], dialect) for at in range(width)]
     above = _above(rows[:first], width) or _in_comments(comments, start, kinds, dialect)
     header, units, line = _names(above)
-    if all(not row[-1].strip() for row in even) and width > 1:  # rows end with a separator
-        kinds.pop()
-        if header is not None and len(header) == width and not header[-1]:
-            header = header[:-1]
-    if header is None:
-        _check(rows, first, len(kinds), name)
-    elif len(header) != len(kinds):
+    nameless = header is None or len(header) < width or not header[width - 1]
+    if nameless and width > 1 and all(not row[-1].strip() for row in even):
+        kinds.pop()  # rows end with a separator
+        header = header[: len(kinds)] if header is not None else None
+    if header is None and first:
+        line, row = rows[first - 1]
+        if len(row) > 1 and start - line == 1:  # right above the data, of another width
+            raise BadInput(_misfit(name, tuple(row), line, rows[first], dialect))
+    if header is not None and len(header) != len(kinds):
         raise BadInput(_misfit(name, header, line, rows[first], dialect))
     used = [each for each, _ in above]
     passed = tuple(each for each, _ in rows[:first] if each not in used)
@@ -212,18 +215,6 @@ def _names(above: list[Row]) -> tuple[tuple[str, ...] | None, tuple[str, ...], i
     line, header = above[0]
     units = tuple(headings.bare(cell) for cell in above[1][1]) if len(above) > 1 else ()
     return tuple(cell.strip().lstrip("".join(MARKS)) for cell in header), units, line
-
-
-def _check(rows: list[Row], first: int, width: int, name: str) -> None:
-    """Without a header: what stands right above the data must not look like one of other width."""
-    if not first:
-        return
-    line, row = rows[first - 1]
-    if len(row) > 1 and rows[first][0] - line == 1:
-        raise BadInput(
-            f"{name}: line {line} has {len(row)} cells, the data from line {rows[first][0]} on "
-            f"have {width}: a header needs one name a column"
-        )
 
 
 def _misfit(name: str, header: tuple[str, ...], line: int, first: Row, dialect: Dialect) -> str:
