@@ -92,6 +92,14 @@ def _denoise(
     return denoise(samples, method, **options, **extra)  # type: ignore[arg-type]
 
 
+def remarks(source: Source) -> list[str]:
+    """What a user should know about how the table and its times were taken."""
+    found = [*source.table.remarks, *source.spacing.remarks]
+    if source.spacing.times is not None and "t" not in inspect.signature(denoise).parameters:
+        found.append("the rows are taken as equally spaced")
+    return found
+
+
 def columns_with(source: Source, found: list[Estimate]) -> list[Column]:
     """All columns of the table, behind them those that were found: healed, estimate."""
     new: list[Column] = []

@@ -106,14 +106,14 @@ def _spectrum(axes: Axes, source: Source, found: Estimate) -> None:
         axes.text(0.5, 0.5, "nothing was taken away", ha="center", transform=axes.transAxes)
         return
     length = min(len(residual), max(256, min(len(residual) // 8, 8192)))
-    filled = np.where(known, residual, 0.0)
-    frequency, density = welch(filled, 1.0 / step, nperseg=length)
-    density = density / known.mean()
-    axes.semilogy(frequency[1:], np.maximum(density[1:], np.max(density) * 1e-12), **THIN)
+    scale = float(np.max(np.abs(residual[known])))  # squares shall not overflow
+    filled = np.where(known, residual / scale, 0.0)
+    frequency, power = welch(filled, 1.0 / step, nperseg=length)
+    amplitude = scale * np.sqrt(power[1:] / known.mean())
+    axes.semilogy(frequency[1:], np.maximum(amplitude, 1e-6 * np.max(amplitude)), **THIN)
     if found.result.sigma > 0.0:
-        level = 2.0 * step * found.result.sigma**2
-        axes.axhline(level, **DASHED)
-    axes.set_ylabel("power density")
+        axes.axhline(np.sqrt(2.0 * step) * found.result.sigma, **DASHED)
+    axes.set_ylabel("amplitude density")
     axes.text(0.98, 0.95, "dashed: white", ha="right", va="top", transform=axes.transAxes)
 
 

@@ -1,7 +1,7 @@
 """Signals to be denoised: columns of a table, a field of a recording, or a test signal."""
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
@@ -14,7 +14,7 @@ from fpt_ros.tables.opening import STDIN
 from fpt_ros.tables.reading import TAKES, read
 from fpt_ros.tables.spacing import Spacing, spacing_of
 from fpt_ros.tables.table import Column, Kind, Table
-from fpt_ros.tables.time_axis import TimeAxis, find
+from fpt_ros.tables.time_axis import TimeAxis, find, unread
 
 ALL = "all"
 """The word for every column of numbers but the times."""
@@ -116,11 +116,16 @@ def _of_table(table: Table, request: Request) -> Source:
             raise BadInput(f"{table.name}: {each.refusal}: columns of numbers are {names}")
         if each.refusal:
             raise BadInput(f"{table.name}: {each.refusal}")
-    return Source(table, signals, axis, spacing_of(axis, len(table)), request.path)
+    if axis is None and request.time is None and unread(table):
+        table = replace(table, remarks=(*table.remarks, unread(table)))
+    return Source(table, signals, axis, spacing_of(table, axis), request.path)
 
 
 def _signals(table: Table, axis: TimeAxis | None) -> tuple[Column, ...]:
-    """Every column of numbers that is neither times nor a count of the rows."""
+    """Every column of numbers that is neither times nor a count of the rows, and not empty.
+
+    True and false are numbers where there are no others.
+    """
     others = [
         each
         for each in table.columns
@@ -131,7 +136,8 @@ def _signals(table: Table, axis: TimeAxis | None) -> tuple[Column, ...]:
         for each in others
         if axis is None or not (headings.is_time_name(each.name) or _counts(each))
     ]
-    filled = [each for each in found if not np.isnan(each.values).all()]
+    found = [each for each in found if each.kind is Kind.NUMBER] or found
+    filled = [each for each in found if 2 * int(np.isnan(each.values).sum()) <= len(table)]
     if filled or found or others:
         return tuple(filled or found or others)
     refused = [each.refusal for each in table.columns if each.refusal]
@@ -155,4 +161,4 @@ def _test_signal(text: str) -> Source:
     time = Column("t", Kind.NUMBER, np.arange(noisy.n) / noisy.n)
     table = Table((time, Column("clean", Kind.NUMBER, clean), signal), text, "test signal")
     axis = TimeAxis("t", time.values, "")
-    return Source(table, (signal,), axis, spacing_of(axis, noisy.n), Path(noisy.signal), clean)
+    return Source(table, (signal,), axis, spacing_of(table, axis), Path(noisy.signal), clean)

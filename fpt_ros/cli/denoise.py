@@ -247,6 +247,7 @@ def _tell(
 ) -> None:
     from rich.console import Console
 
+    from fpt_ros.analysis.estimates import remarks
     from fpt_ros.cli import denoise_summary as summary
     from fpt_ros.cli.output import console, print_json
 
@@ -261,7 +262,7 @@ def _tell(
                 "file": str(file),
                 "read": source.table.layout,
                 "times": summary.times(source),
-                "remarks": summary.remarks(source),
+                "remarks": remarks(source),
                 **(signals[0] if len(signals) == 1 else {"signals": signals}),
                 "out": str(target),
             }

@@ -13,11 +13,6 @@ if TYPE_CHECKING:
     from fpt_ros.denoising.offline import Result
 
 
-def remarks(source: "Source") -> list[str]:
-    """What a user should know about how the table and its times were taken."""
-    return [*source.table.remarks, *source.spacing.remarks]
-
-
 def numbers(source: "Source", found: "Estimate") -> dict[str, Any]:
     """What was found of one signal: plain values, as JSON has them."""
     from fpt_ros.analysis.compared_methods import success
@@ -61,6 +56,8 @@ def print_source(screen: "Console", source: "Source") -> None:
             screen,
             f"times: {axis.column}, {first:g} to {last:g}{unit}, step {step:.6g}{unit}{rate}",
         )
+    from fpt_ros.analysis.estimates import remarks
+
     for remark in remarks(source):
         print(f"fpt: note: {remark}", file=sys.stderr)
 

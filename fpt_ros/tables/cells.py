@@ -15,6 +15,15 @@ MISSING = frozenset(
 )
 """Words for a missing sample, in small letters."""
 
+ERRORS = frozenset(
+    (
+        *("ERR", "ERROR", "FAULT", "FAIL", "FAILED", "BAD", "INVALID", "TIMEOUT", "LOST"),
+        *("OL", "OVER", "OVERFLOW", "OVERRANGE", "UNDER", "UNDERFLOW", "NODATA"),
+    )
+)
+"""Words of instruments in the place of a number. Any other word among numbers counts as missing
+too, but a row of these is not taken for a header."""
+
 TRUE = frozenset(("true", "yes", "on"))
 FALSE = frozenset(("false", "no", "off"))
 

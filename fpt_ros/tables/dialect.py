@@ -117,17 +117,20 @@ def sniff(lines: list[str], separator: str = "") -> Dialect:
 
 def _score(rows: list[list[str]], decimal: str) -> float:
     """The part of the cells that are numbers or times; missing ones do not count."""
-    good = bad = 0
-    for row in rows:
-        for cell in row:
-            what = kind(cell, decimal)
-            if what is Cell.MISSING:
-                continue
-            if what in GOOD and not _zeros_in_front(cell):
-                good += 1
-            else:
-                bad += 1
+    counts = [_good(row, decimal) for row in rows]
+    some = [each for each in counts if each[0]]  # the others may be headers
+    if 2 * len(some) >= len(rows):
+        counts = some
+    good, bad = (sum(each) for each in zip(*counts, strict=True))
     return good / (good + bad) if good else 0.0
+
+
+def _good(row: list[str], decimal: str) -> tuple[int, int]:
+    """How many cells are numbers or times, and how many are something else."""
+    kinds = [(cell, kind(cell, decimal)) for cell in row]
+    good = sum(what in GOOD and not _zeros_in_front(cell) for cell, what in kinds)
+    missing = sum(what is Cell.MISSING for _, what in kinds)
+    return good, len(row) - missing - good
 
 
 def _zeros_in_front(cell: str) -> bool:

@@ -40,7 +40,9 @@ class Filling:
         words: cells that are words: their samples count as missing.
         garbled: the first cells with digits that are no numbers.
         spoiled: how many of those there are.
+        odd: the first cell of a column of words.
         whole: whether all numbers are whole.
+        zone: whether times name their zone.
     """
 
     kind: Cell
@@ -51,6 +53,7 @@ class Filling:
     spoiled: int = 0
     whole: bool = True
     zone: bool = False
+    odd: Odd | None = None
 
     def add(self, cells: Sequence[str], lines: Sequence[int]) -> None:
         """Convert the cells of the next rows; ``lines``: theirs in the file."""
@@ -65,11 +68,19 @@ class Filling:
             part = times.clocks(cells)
         else:
             part = np.array(cells, dtype=object)
+            if self.odd is None:
+                self.odd = self._first_odd(cells, lines)
         if part.dtype.kind in "fmM":
             lost = np.isnan(part) if part.dtype.kind == "f" else np.isnat(part)
             for at in np.flatnonzero(lost).tolist():
                 self._look(Odd(lines[at], cells[at]))
         self.parts.append(part)
+
+    def _first_odd(self, cells: Sequence[str], lines: Sequence[int]) -> Odd | None:
+        for cell, line in zip(cells, lines, strict=False):
+            if kind(cell, self.decimal) not in (Cell.MISSING, Cell.NUMBER):
+                return Odd(line, cell)
+        return None
 
     def _numbers(self, cells: Sequence[str]) -> NDArray[Any]:
         joined = "".join(cells)
@@ -115,8 +126,9 @@ class Filling:
         """The column, now that all its cells are there."""
         values = _joined(self.parts)
         if self.kind in (Cell.WORD, Cell.GARBLED):
-            first = next((cell.strip() for cell in values if cell.strip()), "")
-            refusal = f"column '{name}' is not numbers: it has cells like '{first[:SHOWN]}'"
+            where = f": line {self.odd.line} is {self.odd}" if self.odd else ""
+            plain = ", write plain numbers" if self.kind is Cell.GARBLED else ""
+            refusal = f"column '{name}' is not numbers{where}{plain}"
             return Column(name, Kind.TEXT, values, unit, heading, refusal)
         if self.kind is Cell.TIME:
             unit = "UTC" if self.zone else ""

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 from fpt_ros.errors import BadInput
 from fpt_ros.tables import headings
-from fpt_ros.tables.cells import Cell, kind
+from fpt_ros.tables.cells import ERRORS, Cell, kind
 from fpt_ros.tables.dialect import BLANKS, MARKS, Dialect, Rows, is_comment
 
 Row = tuple[int, list[str]]
@@ -78,6 +78,10 @@ def lay_out(lines: list[str], dialect: Dialect, name: str) -> Layout:
         line, row = rows[first - 1]
         if len(row) > 1 and start - line == 1:  # right above the data, of another width
             raise BadInput(_misfit(name, tuple(row), line, rows[first], dialect))
+    if header is not None and len(header) == len(kinds) + 1 and not header[-1]:
+        header = header[:-1]
+    if header is not None and len(header) == len(kinds) - 1 and _numbered(even):
+        header, units = ("", *header), ("", *units)  # names of the rows, as R writes them
     if header is not None and len(header) != len(kinds):
         raise BadInput(_misfit(name, header, line, rows[first], dialect))
     used = [each for each, _ in above]
@@ -158,10 +162,20 @@ def _is_data(row: list[str], kinds: list[Cell], dialect: Dialect, topmost: bool)
         return False
     if headings.is_time_name(headings.split(row[0])[0]):
         return False
+    if all(cell.strip() in ERRORS for cell in row):
+        return True
     found = [kind(cell, dialect.decimal) for cell in row]
     if all(cell is Cell.MISSING for cell in found):
         return topmost or any(cell.strip() not in ("", "-") for cell in row)
     return any(own in VALUES and own is theirs for own, theirs in zip(found, kinds, strict=True))
+
+
+def _numbered(rows: list[list[str]]) -> bool:
+    """Whether the first column counts the rows."""
+    first = [row[0].strip() for row in rows]
+    if not all(cell.isdigit() for cell in first):
+        return False
+    return [int(cell) for cell in first] == list(range(int(first[0]), int(first[0]) + len(first)))
 
 
 def _counts(row: list[str], whole: bool) -> bool:

@@ -7,6 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fpt_ros.errors import BadInput
+from fpt_ros.tables.table import Table
 from fpt_ros.tables.time_axis import REMEDY, TimeAxis
 
 Floats = NDArray[np.float64]
@@ -66,21 +67,22 @@ class Spacing:
         return found
 
 
-def spacing_of(axis: TimeAxis | None, count: int) -> Spacing:
-    """The places of ``count`` rows; without times they are equally spaced.
+def spacing_of(table: Table, axis: TimeAxis | None) -> Spacing:
+    """The places of a table's rows; without times they are equally spaced.
 
     Raises:
         BadInput: all times are equal, or they begin anew.
     """
+    count = len(table)
     if axis is None or count < 2:
         return Spacing(np.arange(count), count, 1.0)
     t, name = axis.values, axis.title
     if np.all(t == t[0]):
-        raise BadInput(f"the times '{name}' are all {t[0]:g}: give others, {REMEDY}")
+        raise BadInput(f"{table.name}: the times '{name}' are all {t[0]:g}: give others, {REMEDY}")
     remarks = []
     order = np.arange(count)
     if np.any(np.diff(t) < 0):
-        _check_restart(t, name)
+        _check_restart(table, t, name)
         order = np.argsort(t, kind="stable")
         remarks.append(f"rows are not in the order of '{name}': sorted by it for the estimate")
     index = np.empty(count, dtype=np.intp)
@@ -142,7 +144,7 @@ def _places(ticks: Floats) -> tuple[NDArray[np.intp], float, float] | None:
     return None
 
 
-def _check_restart(t: Floats, name: str) -> None:
+def _check_restart(table: Table, t: Floats, name: str) -> None:
     """Two records behind one another in a file would be mixed by sorting.
 
     Raises:
@@ -156,6 +158,6 @@ def _check_restart(t: Floats, name: str) -> None:
     blocks = sorted((float(t[a:b].min()), float(t[a:b].max())) for a, b in pairwise(ends))
     if any(after[0] <= before[1] for before, after in pairwise(blocks)):
         raise BadInput(
-            f"the times '{name}' begin anew in row {back[0] + 2}: are these several records? give "
-            f"each a file of its own, {REMEDY}"
+            f"{table.name}: the times '{name}' begin anew in {table.where(int(back[0]) + 1)}: are "
+            f"these several records? give each a file of its own, {REMEDY}"
         )

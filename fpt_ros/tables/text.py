@@ -68,9 +68,13 @@ class _Body:
         reader = Rows(source, self.dialect.separator)
         header = list(self.layout.header or ())
         pending: list[int] = []
+        last = before
         try:
             for row in reader:
                 line = reader.line + before
+                if line > last + 1:
+                    self._check_quoted(last + 1, row)
+                last = line
                 if len(row) == width and row[0][:1] not in "#%/" and (row[0] or width > 1):
                     if row == header:
                         self.repeated.append(line)
@@ -94,9 +98,23 @@ class _Body:
                 yield row
         except csv.Error as error:
             raise BadInput(
-                f"{self.name}: line {reader.line + before}: a quote is not where it should be "
-                f"({error}): close it, or take it out"
+                f"{self.name}: line {last + 1}: a quote is not where it should be ({error}): close "
+                "it, or take it out"
             ) from error
+
+    def _check_quoted(self, line: int, row: list[str]) -> None:
+        """A cell over several lines must not have rows in it.
+
+        Raises:
+            BadInput: it has, so a quote was not closed.
+        """
+        separators = self.layout.width - 1
+        inside = [each for cell in row for each in cell.split("\n")[1:-1]]
+        if any(each.count(self.dialect.separator) >= max(separators, 1) for each in inside):
+            raise BadInput(
+                f"{self.name}: line {line}: a quote is opened, and closed {len(inside) + 1} lines "
+                "later: close it, or take it out"
+            )
 
     def _fill(self, blank: list[int]) -> Iterator[list[str]]:
         """Empty lines between rows: missing samples of a single column, else nothing."""

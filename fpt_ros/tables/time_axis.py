@@ -81,10 +81,15 @@ def _guess(table: Table, signals: Sequence[str]) -> Column | None:
     for each in others:
         if each.kind is Kind.NUMBER and each.unit in headings.TIME_UNITS and _rises(each):
             return each
-    first = table.columns[0]
-    if first in others and sum(each.numeric for each in table.columns) > 1 and _even(first):
-        return first
-    return None
+    if sum(each.numeric for each in table.columns) < 2:
+        return None
+    whole = (each for each in table.columns if each.kind is Kind.NUMBER and not _lacks(each))
+    first = next(whole, None)
+    return first if first is not None and first.name not in signals and _even(first) else None
+
+
+def _lacks(column: Column) -> bool:
+    return bool(np.isnan(column.values).any())
 
 
 def _rises(column: Column) -> bool:
@@ -99,6 +104,17 @@ def _even(column: Column) -> bool:
     rounding = 1e-15 * abs(float(line[-1]))
     steps = np.diff(column.values.astype(np.float64))
     return bool(np.all(np.abs(steps - step) <= EVEN * step + rounding))
+
+
+def unread(table: Table) -> str:
+    """A remark on a column that by its name holds times, which cannot be read; empty if none."""
+    for each in table.columns:
+        if each.kind is Kind.TEXT and headings.is_time_name(each.name) and len(table):
+            return (
+                f"times of '{each.name}' ('{each.values[0]}') cannot be read: rows are taken as "
+                "equally spaced; write them as in 2024-03-01T12:00:10.25"
+            )
+    return ""
 
 
 def _axis(table: Table, column: Column) -> TimeAxis:
@@ -121,7 +137,8 @@ def _axis(table: Table, column: Column) -> TimeAxis:
     elif np.all(values == values.astype("datetime64[D]")):  # dates alone: add the time of day
         clock = next((each for each in table.columns if each.kind is Kind.CLOCK), None)
         if clock is not None and not np.isnat(clock.values).any():
-            values = values + clock.values
+            same_day = bool(np.all(values == values[0]))
+            values = values + (times.over_midnight(clock.values) if same_day else clock.values)
     since = (values - values[0]) / np.timedelta64(1, "s")
     return TimeAxis(name if not name.isdigit() else "time", since, "s")
 

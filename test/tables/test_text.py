@@ -167,7 +167,7 @@ def test_words_stay_words(table):
     words = [(*row, '"on, or off?"') for row in ROWS]
     found = table(text(head=("t", "y", "state"), rows=words))
     assert found.column("state").values.tolist() == ["on, or off?"] * N
-    with pytest.raises(BadInput, match="column 'state' is not numbers: it has cells like 'on, or"):
+    with pytest.raises(BadInput, match="column 'state' is not numbers: line 2 is 'on, or off"):
         found.column("state").numbers()
 
 
