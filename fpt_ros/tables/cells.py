@@ -86,3 +86,15 @@ def kind(cell: str, decimal: str) -> Cell:
     if times.is_clock(text):
         return Cell.CLOCK
     return Cell.GARBLED if any(c.isdigit() for c in text) else Cell.WORD
+
+
+SHOWN = 24
+"""Characters of a cell that a message shows."""
+
+
+def quoted(cell: str) -> str:
+    """A cell for a message: in quotes, not too long, what cannot be printed as an escape."""
+    text = cell.strip()
+    text = text if len(text) <= SHOWN else f"{text[:SHOWN]}..."
+    plain = (c if c.isprintable() else c.encode("unicode_escape").decode() for c in text)
+    return f"'{''.join(plain)}'"

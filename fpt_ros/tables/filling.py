@@ -8,11 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fpt_ros.tables import times
-from fpt_ros.tables.cells import Cell, kind, number, truth
+from fpt_ros.tables.cells import Cell, kind, number, quoted, truth
 from fpt_ros.tables.table import Column, Kind
-
-SHOWN = 24
-"""Characters of a cell that a message shows."""
 
 
 @dataclass(frozen=True)
@@ -24,9 +21,7 @@ class Odd:
 
     def __str__(self) -> str:
         """The cell for a message, on one line."""
-        text = self.cell.strip()
-        shown = text if len(text) <= SHOWN else f"{text[:SHOWN]}..."
-        return f"'{shown}'".encode("unicode_escape").decode() if "\0" in shown else f"'{shown}'"
+        return quoted(self.cell)
 
 
 @dataclass

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 from fpt_ros.errors import BadInput
 from fpt_ros.tables import headings
-from fpt_ros.tables.cells import ERRORS, Cell, kind
+from fpt_ros.tables.cells import ERRORS, Cell, kind, quoted
 from fpt_ros.tables.dialect import BLANKS, MARKS, Dialect, Rows, is_comment
 
 Row = tuple[int, list[str]]
@@ -64,7 +64,7 @@ def lay_out(lines: list[str], dialect: Dialect, name: str) -> Layout:
     if first is None:
         raise BadInput(
             f"{name} has no column of numbers: line {rows[-1][0]} begins with "
-            f"'{rows[-1][1][0][:30]}', needed is a table with one signal a column"
+            f"{quoted(rows[-1][1][0])}, needed is a table with one signal a column"
         )
     start, even = rows[first][0], [row for _, row in rows[first:] if len(row) == width]
     kinds = [_majority([row[at] for row in even], dialect) for at in range(width)]

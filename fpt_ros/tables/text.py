@@ -40,6 +40,7 @@ class _Body:
     all_lines: list[NDArray[np.uint32]] = field(default_factory=list)
     blank: list[int] = field(default_factory=list)
     repeated: list[int] = field(default_factory=list)
+    comments: list[int] = field(default_factory=list)
     cut: int = 0
 
     def read(self, lines: Iterable[str], done: Callable[[], None]) -> None:
@@ -68,6 +69,7 @@ class _Body:
         reader = Rows(source, self.dialect.separator)
         header = list(self.layout.header or ())
         pending: list[int] = []
+        comments: list[int] = []
         last = before
         try:
             for row in reader:
@@ -83,6 +85,7 @@ class _Body:
                     pending.append(line)
                     continue
                 elif is_comment(row[0]):
+                    comments.append(line)
                     continue
                 elif len(row) == width + 1 and not row[-1].strip():
                     row.pop()
@@ -91,9 +94,10 @@ class _Body:
                         self.cut = line
                         continue
                     raise BadInput(self._ragged(line, row))
-                if pending:
+                if pending or comments:
                     yield from self._fill(pending)
-                    pending = []
+                    self.comments += comments
+                    pending, comments = [], []
                 self.lines.append(line)
                 yield row
         except csv.Error as error:
@@ -137,7 +141,11 @@ class _Body:
         if self.layout.passed:
             yield f"{_lines(self.layout.passed)} above the table passed over"
         if self.blank:
-            yield f"{_lines(self.blank)} empty: passed over"
+            are = "are" if len(self.blank) > 1 else "is"
+            yield f"{_lines(self.blank)} {are} empty: passed over"
+        if self.comments:
+            are = "are comments" if len(self.comments) > 1 else "is a comment"
+            yield f"{_lines(self.comments)} {are} among the rows: passed over"
         if self.repeated:
             yield f"header repeated in {_lines(self.repeated)}: passed over"
         if self.cut:

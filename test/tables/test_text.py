@@ -104,7 +104,7 @@ def test_a_last_line_that_is_cut_is_left_out_and_told(table):
 def test_what_is_passed_over_is_told(table):
     assert table(WHOLE["header repeated"]).remarks == ("header repeated in line 63: passed over",)
     assert table("Model,XYZ\n\n" + PLAIN).remarks == ("line 1 above the table passed over",)
-    assert table(with_inserted(9, "")).remarks == ("line 9 empty: passed over",)
+    assert table(with_inserted(9, "")).remarks == ("line 9 is empty: passed over",)
 
 
 def test_empty_lines_are_missing_samples_of_a_single_column(table):
@@ -232,3 +232,38 @@ def test_what_is_written_is_read(tmp_path_factory, rows, style, header, end, cod
     assert len(found.columns) == 3
     for at, column in enumerate(found.columns):
         np.testing.assert_array_equal(column.numbers(), [float(row[at]) for row in cells])
+
+
+@settings(max_examples=60, deadline=None)
+@given(
+    kind=st.sampled_from(["plain", "semicolons and decimal commas", "blanks", "quoted", "tabs"]),
+    at=st.integers(20, 100),
+    place=st.integers(0, 12),
+    new=st.sampled_from(["", *",;\"\t \n#%\0-+.eE07x|'_", "\n\n", "NaN", '",'])
+    | st.characters(codec="utf-8"),
+    instead=st.booleans(),
+)
+def test_one_wrong_character_spoils_one_row_or_is_refused(
+    tmp_path_factory, kind, at, place, new, instead
+):
+    """No other row changes, and none is lost without a word."""
+    lines = WHOLE[kind].splitlines()
+    line = lines[at]
+    lines[at] = line[:place] + new + line[place + instead :]
+    path = tmp_path_factory.mktemp("spoilt") / "s.csv"
+    path.write_bytes("\n".join([*lines, ""]).encode("utf-8", "surrogatepass"))
+    try:
+        found = read(path)
+        t, y = (column.numbers() for column in found.columns)
+    except BadInput as error:
+        assert str(error).isprintable()  # noqa: PT017
+        return
+    if len(t) == N:
+        others = np.arange(N) != at - 1
+        np.testing.assert_array_equal(t[others], T[others])
+        np.testing.assert_array_equal(y[others], Y[others])
+    else:
+        assert len(t) == N - 1
+        assert found.remarks
+        np.testing.assert_array_equal(t, np.delete(T, at - 1))
+        np.testing.assert_array_equal(y, np.delete(Y, at - 1))
