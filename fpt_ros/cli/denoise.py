@@ -1,6 +1,5 @@
 """``fpt denoise``."""
 
-import re
 import sys
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
@@ -52,7 +51,6 @@ Out = Annotated[
 Plot = Annotated[Path | None, typer.Option(metavar="FILE", help="Picture to draw (png, svg, pdf).")]
 Compare = Annotated[bool, typer.Option("--compare", help="Run all methods and print the table.")]
 
-PICTURES = (".png", ".svg", ".pdf")
 LONG_TEXT, LONG_RECORD = 20_000_000, 50_000
 """Bytes and samples from which on progress is shown."""
 
@@ -90,8 +88,9 @@ def denoise(
     Example: fpt denoise test:sines,rho=0.5,seed=10 --method improved --plot sines.png
     """
     from fpt_ros.analysis.signal_source import Request
+    from fpt_ros.cli.denoise_files import picture_path, targets, write
 
-    target, pictures = _targets(file, out, plot, compare, json)
+    target, pictures = targets(file, out, plot, compare, json)
     request = Request(file, tuple(column or ()), topic, field, time)
     source = _load(request)
     if compare:
@@ -99,45 +98,9 @@ def denoise(
         return
     options = _options(set_ or [])
     found = _estimates(source, method, options, every="all" in request.columns)
-    paths = [_picture_path(pictures, one, len(found)) for one in found] if pictures else []
-    _write(source, found, target, paths)
+    paths = [picture_path(pictures, one, len(found)) for one in found] if pictures else []
+    write(source, found, target, paths)
     _tell(source, found, file, target, paths, json)
-
-
-def _targets(
-    file: Path, out: Path | None, plot: Path | None, compare: bool, json: bool
-) -> tuple[Path, Path | None]:
-    """Where table and picture go.
-
-    Raises:
-        BadInput: to files that cannot be.
-    """
-    from fpt_ros.denoising.noisy import PREFIX, parse
-    from fpt_ros.errors import BadInput
-    from fpt_ros.tables.opening import SUFFIXES
-    from fpt_ros.tables.writing import check_target
-
-    if plot is not None and plot.suffix not in PICTURES:
-        raise BadInput(f"--plot {plot}: it takes a name that ends in {', '.join(PICTURES)}")
-    if str(file) == "-" and out is None:
-        target = Path("-")
-    elif str(file).startswith(PREFIX):
-        target = out or Path(f"{parse(str(file)).signal}-denoised.csv")
-    else:
-        packed = file.suffix.lower() in SUFFIXES
-        plain = file.with_suffix("") if packed else file
-        target = out or file.with_name(f"{plain.stem}-denoised.csv")
-    check_target("--out", target)
-    if str(target) == "-" and json and not compare:
-        raise BadInput("--json and the table cannot both go to standard output: give --out FILE")
-    for option, path in (("--out", target), ("--plot", plot)):
-        if path is None or str(path) == "-":
-            continue
-        if path.absolute() == file.absolute():
-            raise BadInput(f"{option} {path} is the input: give another name")
-        if not path.absolute().parent.is_dir():
-            raise BadInput(f"{option} {path}: the folder {path.parent} does not exist: make it")
-    return target, plot
 
 
 def _load(request: "Request") -> "Source":
@@ -202,39 +165,6 @@ def _working(name: str, samples: int) -> Iterator[Callable[..., None] | None]:
         return
     with progress_bar(f"denoising {name}", samples, "samples") as done:
         yield done
-
-
-def _picture_path(plot: Path, one: "Estimate", count: int) -> Path:
-    """The picture's file: with the signal's name in it where there are several."""
-    if count == 1:
-        return plot
-    name = re.sub(r"[^\w.-]+", "_", one.signal.name).strip("_")
-    return plot.with_name(f"{plot.stem}-{name}{plot.suffix}")
-
-
-def _write(source: "Source", found: "list[Estimate]", target: Path, pictures: list[Path]) -> None:
-    """Table and pictures; each appears whole or not at all."""
-    from fpt_ros.analysis.estimates import columns_with
-    from fpt_ros.analysis.whole_files import write_whole
-    from fpt_ros.errors import BadInput
-    from fpt_ros.tables.writing import encoded
-
-    path = target
-    try:
-        chunks = encoded(columns_with(source, found), target)
-        if str(target) == "-":
-            sys.stdout.buffer.writelines(chunks)
-            sys.stdout.buffer.flush()
-        else:
-            write_whole(target, chunks)
-        for path, one in zip(pictures, found, strict=False):  # none where none was asked for
-            from fpt_ros.analysis.signal_figure import picture
-
-            write_whole(path, picture(source, one, path.suffix[1:]))
-    except BrokenPipeError:
-        raise
-    except OSError as error:
-        raise BadInput(f"{error.filename or path} cannot be written: {error.strerror}") from error
 
 
 def _tell(
