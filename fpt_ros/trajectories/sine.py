@@ -1,4 +1,4 @@
-"""q^N(t) = offset + a sin(w t + phase): the nominal motion of most experiments (section 2.2, ...)."""
+"""q^N(t) = offset + a sin(w t + phase): the nominal motion of most experiments (section 2.2)."""
 
 import math
 
