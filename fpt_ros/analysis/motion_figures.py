@@ -2,7 +2,7 @@
 
 from collections.abc import Sequence
 
-from fpt_ros.analysis import metrics, signals, style
+from fpt_ros.analysis import motions, signals, sizes, style
 from fpt_ros.analysis.labels import all_names, colour_of, followed
 from fpt_ros.analysis.panels import Panels
 from fpt_ros.runs.run import Run
@@ -15,7 +15,7 @@ def tracking(runs: Sequence[Run]) -> Panels | None:
         return None
     panels = Panels.of(runs, rows)
     for name, column, run in panels.cells(runs):
-        motion = signals.motion(run, name)
+        motion = motions.motion(run, name)
         axes = panels.take(name, column, motion.nominal)
         if axes is not None:
             style.draw(axes, motion.time, motion.nominal, style.BAND)
@@ -32,7 +32,7 @@ def tracking_error(runs: Sequence[Run]) -> Panels | None:
         return None
     panels = Panels.of(runs, rows)
     for name, column, run in panels.cells(runs):
-        motion = signals.motion(run, name)
+        motion = motions.motion(run, name)
         axes = panels.take(name, column, motion.error)
         if axes is None:
             continue
@@ -43,7 +43,7 @@ def tracking_error(runs: Sequence[Run]) -> Panels | None:
             axes.axvspan(0.0, end, color="#f3f4f6", zorder=0)
         axes.axhline(0.0, color=style.INK, linewidth=0.7, zorder=1)
         style.draw(axes, motion.time, motion.error, style.thin(colour_of(run, name)))
-        rms = metrics.rms(motion.error[late])
+        rms = sizes.rms(motion.error[late])
         if rms is not None:
             panels.note(name, column, f"settled rms {rms:.3g} {unit}".rstrip())
         symbol = style.symbol(name)
@@ -59,7 +59,7 @@ def phase_trajectories(runs: Sequence[Run]) -> Panels | None:
         return None
     panels = Panels.of(runs, rows, 3.2, time=False)
     for name, column, run in panels.cells(runs):
-        motion = signals.motion(run, name)
+        motion = motions.motion(run, name)
         axes = panels.take(name, column, motion.nominal)
         if axes is not None:
             nominal, unit = style.BAND, signals.unit(run, name)

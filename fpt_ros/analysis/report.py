@@ -8,9 +8,10 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from fpt_ros.analysis import pages, signals, style
+from fpt_ros.analysis.comparison import baselines, comparison
 from fpt_ros.analysis.figures import Chart, charts
 from fpt_ros.analysis.labels import run_labels
-from fpt_ros.analysis.metrics import baselines, comparison, summary
+from fpt_ros.analysis.metrics import summary
 from fpt_ros.analysis.tables import content
 from fpt_ros.analysis.whole_files import write_whole
 from fpt_ros.errors import BadInput

@@ -4,7 +4,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from fpt_ros.analysis import signals, style
+from fpt_ros.analysis import motions, signals, style
 from fpt_ros.analysis.labels import all_names, colour_of, realised
 from fpt_ros.analysis.panels import Panels
 from fpt_ros.cycle.tuned import FACTOR
@@ -26,9 +26,9 @@ def responses_zoom(runs: Sequence[Run]) -> Panels | None:
 
 def _excerpt(run: Run) -> _Window:
     """Half a period of the nominal motion about the settle time, inside the run [s]."""
-    motions = [signals.motion(run, name) for name in signals.controlled(run)]
-    end = max((float(m.time[-1]) for m in motions if len(m.time)), default=0.0)
-    period = signals.period(motions)
+    parts = [motions.motion(run, name) for name in signals.controlled(run)]
+    end = max((float(m.time[-1]) for m in parts if len(m.time)), default=0.0)
+    period = motions.period(parts)
     width = min(end, period / 2 if period is not None else end / 4)
     start = min(max(signals.settle_time(run) - width / 2, 0.0), end - width)
     return start, start + width
