@@ -67,9 +67,8 @@ class Metrics:
             errors.add(motion, signals.first_settled(self._about, motion.time))
         if "command" in piece:
             command = piece["command"]
-            columns = np.ascontiguousarray(command.vectors["effort"].T)
-            for name, column in zip(command.names, columns, strict=True):
-                self._efforts[name].add(column)
+            for name in command.names:
+                self._efforts[name].add(command.column("effort", name))
             self._chatter.add(command)
         if "tuning" in piece:
             tuning = piece["tuning"]
@@ -165,24 +164,26 @@ class _Chatter:
         """Add the commands that follow."""
         if command.names != self._names:
             self._widen(command.names)
-        rows = np.ascontiguousarray(aligned(command, "accelerations", self._names).T)
+        rows = aligned(command, "accelerations", self._names)
+        squares = np.zeros(len(rows) - 1 + len(self._last))
         with np.errstate(invalid="ignore", over="ignore"):
-            steps = np.diff(rows, axis=1, prepend=self._last)
-            known = ~np.isnan(steps)
-            if known.all():
-                self._any = self._any or steps.size > 0
-            else:
-                self._any = self._any or bool(known.any())
-                steps[~known] = 0.0
-            lengths = np.sqrt(np.square(steps, out=steps).sum(axis=0))
-        self._sum += float(lengths.sum())
-        self._steps += len(lengths)
-        self._last = rows[:, -1:].copy()
+            for at in range(len(self._names)):
+                steps = np.diff(np.concatenate((self._last[:, at], rows[:, at])))
+                if np.isnan(steps.max(initial=-np.inf)):
+                    known = ~np.isnan(steps)
+                    steps[~known] = 0.0
+                    self._any = self._any or bool(known.any())
+                else:
+                    self._any = self._any or len(steps) > 0
+                squares += np.square(steps, out=steps)
+            self._sum += float(np.sqrt(squares, out=squares).sum())
+        self._steps += len(squares)
+        self._last = rows[-1:].copy()
 
     def _widen(self, names: Names) -> None:
         every = tuple(dict.fromkeys((*self._names, *names)))
-        last = np.full((len(every), self._last.shape[1]), np.nan)
-        last[: len(self._names)] = self._last
+        last = np.full((len(self._last), len(every)), np.nan)
+        last[:, : len(self._names)] = self._last
         self._names, self._last = every, last
 
     def mean(self) -> float | None:

@@ -2,7 +2,7 @@
 
 import signal
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import ExitStack, contextmanager
 from time import perf_counter
 
 from fpt_ros.cli.gain import warn_about_gain
@@ -36,38 +36,43 @@ def simulate(
     if record is not None:
         check_new_directory(record)
     warn_about_gain(experiment)
-    from fpt_ros.analysis.metrics import summary
+    from fpt_ros.analysis.metrics import Metrics
     from fpt_ros.bags.recording import EngineRecording
     from fpt_ros.cli.output import print_result, progress_bar
     from fpt_ros.engine.engine import Engine
+    from fpt_ros.engine.feed import feed
     from fpt_ros.errors import Interrupted, RunFailed
-    from fpt_ros.runs.run import Run, describe
+    from fpt_ros.runs.chunks import Consumer
+    from fpt_ros.runs.run import describe
 
     failure: RunFailed | Interrupted | None = None
     started = perf_counter()
     engine = Engine(experiment.loop())
+    metrics = Metrics(experiment.nodes)
+    consumers: list[Consumer] = [metrics]
     title = f"{experiment.name} {experiment.variant}"
-    with (
-        interrupts() as interrupted,
-        EngineRecording(record, experiment, engine) as recording,
-        progress_bar(title, engine.cycles) as bar,
-    ):
+    with ExitStack() as stack:
+        interrupted = stack.enter_context(interrupts())
+        recording = None
+        if record is not None:
+            recording = stack.enter_context(EngineRecording(record, experiment))
+            consumers.append(recording)
+        bar = stack.enter_context(progress_bar(title, engine.cycles))
 
         def progress(cycle: int) -> None:
-            recording.update()
             bar(cycle)
             if interrupted:
                 raise Interrupted(f"interrupted in cycle {cycle}")
 
         prepared = perf_counter()
         try:
-            engine.run(progress)
+            feed(engine, consumers, progress)
         except (RunFailed, Interrupted) as error:
             failure = error
-            recording.reason = str(error)
+            if recording is not None:
+                recording.reason = str(error)
     ended = perf_counter()
-    info = describe(experiment, "in_process", str(failure or ""))
-    result = summary(Run(info, experiment.nodes, engine.topics()))
+    result = metrics.result(describe(experiment, "in_process", str(failure or "")))
     cycles = result["cycles"]
     assert isinstance(cycles, int)
     print_result(

@@ -4,6 +4,7 @@ from pathlib import Path
 
 from fpt_ros.bags.recording import EngineRecording
 from fpt_ros.engine.engine import Engine
+from fpt_ros.engine.feed import feed
 from fpt_ros.experiments import experiment
 from fpt_ros.experiments.experiment import Experiment
 from fpt_ros.messages.frames import Frame
@@ -56,7 +57,7 @@ def record(directory: Path) -> Recorded:
     tora = experiment.load("tora", duration=1.0)
     frames: list[tuple[Topic, Frame]] = []
     engine = Engine(tora.loop())
-    with EngineRecording(directory, tora, engine) as recording:
-        engine.run(lambda cycle: recording.update())
+    with EngineRecording(directory, tora) as recording:
+        feed(engine, [recording])
     engine.frames(0, lambda topic, frame: frames.append((topic, frame)))
     return Recorded(tora, frames, engine.topics(), directory)
