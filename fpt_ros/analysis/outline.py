@@ -1,12 +1,12 @@
 """A run in outline: what its figures need, taken chunk by chunk in constant memory."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
 from fpt_ros.analysis import motions, signals
-from fpt_ros.analysis.metrics import Summary
+from fpt_ros.analysis.metrics import Summary, summary
 from fpt_ros.analysis.motions import Motion, Motions
 from fpt_ros.analysis.sizes import Size
 from fpt_ros.analysis.thinner import Thinned, Thinner, Window
@@ -98,6 +98,18 @@ def outline(run: Run) -> Outline:
     outliner = Outliner(run.parameters)
     outliner.take(ordered(run.topics))
     return outliner.result(run.info, run.latency)
+
+
+def numbers_of(run: Run) -> Summary:
+    """The summary of a run, which an outline may bring along."""
+    if isinstance(run, Outline) and run.numbers is not None:
+        return run.numbers
+    return summary(run)
+
+
+def with_numbers(run: Run) -> Outline:
+    """The outline of a run with its summary."""
+    return replace(outline(run), numbers=numbers_of(run))
 
 
 class Outliner:

@@ -11,7 +11,8 @@ from rich.text import Text
 from fpt_ros.analysis import signals
 from fpt_ros.analysis.comparison import Row, baselines, comparison
 from fpt_ros.analysis.labels import labels_of
-from fpt_ros.analysis.metrics import Summary, summary
+from fpt_ros.analysis.metrics import Summary
+from fpt_ros.analysis.outline import numbers_of
 from fpt_ros.runs.run import Run
 
 QUANTITIES = {
@@ -69,7 +70,7 @@ def content(runs: Sequence[Run | Summary]) -> Content:
     Args:
         runs: runs (units are then given), or their summaries.
     """
-    summaries = [summary(one) if isinstance(one, Run) else one for one in runs]
+    summaries = [numbers_of(one) if isinstance(one, Run) else one for one in runs]
     headings = labels_of([(str(s["experiment"]), str(s["variant"])) for s in summaries])
     against = baselines(summaries)
     lines = []

@@ -111,8 +111,29 @@ class Collector:
             for vector in frame[2:]
         ]
 
+    @property
+    def held(self) -> int:
+        """Frames that are held."""
+        return sum(map(len, self._stamps.values()))
+
+    def complete(self) -> int:
+        """Stamp before which no more frames come, if each topic is in order [ns]; 0: not known."""
+        return min((stamps[-1] for stamps in self._stamps.values() if stamps), default=0)
+
+    def drain(self, before: int) -> dict[str, Series]:
+        """The frames before a stamp [ns], by topic; they are held no longer."""
+        result = {}
+        for name, series in self.topics().items():
+            count = int(np.searchsorted(series.stamps, before))
+            vectors = {key: matrix[:count] for key, matrix in series.vectors.items()}
+            result[name] = Series(series.stamps[:count], series.names, vectors)
+            del self._stamps[name][:count]
+            for numbers in self._numbers[name].values():
+                del numbers[: count * len(series.names)]
+        return result
+
     def topics(self) -> dict[str, Series]:
-        """The frames taken so far, by topic, in the order of the cycle."""
+        """The frames that are held, by topic, in the order of the cycle."""
         result = {}
         for topic in LOOP_TOPICS:
             if topic.name in self._stamps:
