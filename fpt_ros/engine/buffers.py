@@ -25,7 +25,8 @@ from fpt_ros.messages.topics import (
     TUNING,
     Topic,
 )
-from fpt_ros.runs.run import Array, Series, joined
+from fpt_ros.runs.chunks import joined
+from fpt_ros.runs.run import Array, Series
 
 RECORDS: dict[Topic, Any] = {
     JOINT_STATES: JointStatesRows,
@@ -75,10 +76,11 @@ class Buffers:
             name: matrix[: len(stamps)]
             for name, matrix in zip(topic.vectors, self._arrays[topic], strict=True)
         }
-        if topic is DESIRED and self._sharing:
-            absent = np.isnan(vectors["accelerations"])
-            vectors = {name: np.where(absent, np.nan, each) for name, each in vectors.items()}
-        return Series(stamps, self._names[topic], vectors)
+        if topic is not DESIRED or not self._sharing:
+            return Series(stamps, self._names[topic], vectors)
+        absent = np.isnan(vectors["accelerations"])
+        vectors = {name: np.where(absent, np.nan, each) for name, each in vectors.items()}
+        return Series(stamps, self._names[topic], vectors).without_empty("accelerations")
 
     def put(self, row: int, topic: Topic, frame: Frame) -> None:
         """Write a frame that the Python stages gave."""
@@ -105,6 +107,5 @@ class Whole:
             return {}
         names = self._chunks[0]
         whole = {name: joined([chunk[name] for chunk in self._chunks]) for name in names}
-        whole[DESIRED.name] = whole[DESIRED.name].without_empty("accelerations")
         self._chunks = [whole]
         return whole

@@ -1,8 +1,8 @@
 """The in-process engine: the control cycle over a whole run, compiled, without ROS."""
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from functools import partial
-from typing import Any, Protocol
+from typing import Any
 
 import numpy as np
 
@@ -18,20 +18,11 @@ from fpt_ros.engine.types import Array, as_arrays, empty
 from fpt_ros.errors import Diverged, RunFailed
 from fpt_ros.messages.frames import SECOND, Command, StateEstimate
 from fpt_ros.messages.topics import COMMAND
+from fpt_ros.runs.chunks import CHUNK, Consumer
 from fpt_ros.runs.run import Series
-
-CHUNK = 8192
-"""Cycles between two looks at progress and Ctrl-C, and whose messages are held at a time."""
 
 LONG = 500_000
 """Cycles from which a specialised loop is worth the seconds that it takes, once."""
-
-
-class Consumer(Protocol):
-    """Takes the messages of a run, some cycles at a time."""
-
-    def take(self, chunk: Mapping[str, Series]) -> None:
-        """Cycles in order, by topic; the arrays are used again after the call."""
 
 
 class Engine:
