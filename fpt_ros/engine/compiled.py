@@ -97,7 +97,8 @@ def _register(function: Callable[..., Any]) -> None:
 def _machine_code(function: Callable[..., Any], signature: Any) -> Any:
     for helper in laws.HELPERS:  # laws loaded meanwhile bring new ones
         _register(helper)
-    return _numba().njit(signature, cache=True, **OPTIONS)(function)
+    # no lock of Python's is held: who takes the messages of a long run works beside it
+    return _numba().njit(signature, cache=True, nogil=True, **OPTIONS)(function)
 
 
 @cache
