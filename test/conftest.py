@@ -6,9 +6,18 @@ from pathlib import Path
 
 import made_runs
 import pytest
+import samples
 
 DOMAINS = range(1, 101)
 """Those whose ports lie below the range that Linux hands out."""
+
+
+def pytest_addoption(parser):
+    parser.addoption("--all", action="store_true", help="exhaustive tests take no sample")
+
+
+def pytest_configure(config):
+    samples.whole = config.getoption("--all")
 
 
 @pytest.fixture(autouse=True)

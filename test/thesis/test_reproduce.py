@@ -7,7 +7,7 @@ import signal
 import psutil
 from command import fpt, start_fpt
 
-from fpt_ros.thesis.claim import chapters
+from fpt_ros.thesis.chapters import chapters
 
 
 def test_a_command_of_a_claim_repeats_its_run():
