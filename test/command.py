@@ -1,8 +1,11 @@
 """Running the command ``fpt`` as its users do: a process, its exit status and what it prints."""
 
 import json
+import os
 import subprocess
 import sys
+import tempfile
+from functools import cache
 from pathlib import Path
 
 BIN = Path(sys.executable).parent
@@ -33,3 +36,40 @@ def start_fpt(*arguments):
         stderr=subprocess.PIPE,
         text=True,
     )
+
+
+@cache
+def _fork_server():
+    """One for all tests of this process; it ends with it, as its input ends."""
+    return subprocess.Popen(
+        [sys.executable, Path(__file__).with_name("fork_server.py")],
+        stdin=subprocess.PIPE,
+        stdout=subprocess.PIPE,
+        text=True,
+    )
+
+
+def forked_fpt(*arguments, cwd=None):
+    """As :func:`fpt`, without the second that importing takes: for the many tests of messages."""
+    server = _fork_server()
+    with tempfile.TemporaryDirectory() as folder:
+        stdout, stderr = Path(folder) / "stdout", Path(folder) / "stderr"
+        request = {
+            "arguments": [*map(str, arguments)],
+            "cwd": str(cwd or Path.cwd()),
+            "environment": dict(os.environ),
+            "stdout": str(stdout),
+            "stderr": str(stderr),
+        }
+        server.stdin.write(json.dumps(request) + "\n")
+        server.stdin.flush()
+        status = int(server.stdout.readline())
+        return subprocess.CompletedProcess(
+            request["arguments"], status, stdout.read_text(), stderr.read_text()
+        )
+
+
+def forked_fpt_json(*arguments, **options):
+    done = forked_fpt(*arguments, "--json", **options)
+    assert done.returncode == 0, done.stderr
+    return json.loads(done.stdout)

@@ -6,7 +6,7 @@ from itertools import chain
 
 import pytest
 import samples
-from command import fpt
+from command import forked_fpt, fpt
 
 from fpt_ros.thesis.chapters import chapters
 from fpt_ros.thesis.claim import STATUSES
@@ -58,7 +58,7 @@ def test_the_page_is_complete_in_itself(made):
     assert re.findall(r'<article class="card claim \w+" id="claim-([\w.]+)"', page) == names
     pictures = list(chain(*(claim.pictures for claim in asked().values())))
     assert page.count("data:image/png;base64,") == len(pictures)
-    assert "fpt simulate tora --variant strong" in page
+    assert "fpt simulate tora --variant nonadaptive" in page
     assert "prefers-color-scheme: dark" in page
     text = re.sub(r"base64,[A-Za-z0-9+/=]+", "", page)
     assert "http" not in text
@@ -79,7 +79,7 @@ def test_progress_is_on_stderr(made):
 
 def test_a_chapter_without_claims_is_bad_input(tmp_path):
     number = 99
-    done = fpt("reproduce", "--chapter", number, "--out", tmp_path / "out")
+    done = forked_fpt("reproduce", "--chapter", number, "--out", tmp_path / "out")
     assert done.returncode == 2
     assert re.fullmatch(rf"fpt: --chapter {number}: it takes one of 2, 3, 4.*\n", done.stderr)
     assert not (tmp_path / "out").exists()
@@ -87,6 +87,6 @@ def test_a_chapter_without_claims_is_bad_input(tmp_path):
 
 def test_a_place_that_cannot_be_written_is_said_before_the_runs(tmp_path):
     (tmp_path / "file").write_text("")
-    done = fpt("reproduce", "--chapter", 2, "--out", tmp_path / "file" / "out", timeout=20.0)
+    done = forked_fpt("reproduce", "--chapter", 2, "--out", tmp_path / "file" / "out")
     assert done.returncode == 2
     assert re.fullmatch(r"fpt: --out .*file is not a directory, give .*\n", done.stderr)
