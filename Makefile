@@ -1,5 +1,6 @@
 # make demo   the TORA experiment over DDS, recorded and reported
-# make test   all tests
+# make test   all tests; exhaustive ones (every cut, every variant over DDS) take a sample
+# make test-all   the same without sampling
 # make bench  all benchmarks (three quarters of an hour; the machine should be quiet)
 # All set up what is missing: a .venv with ROS 2 Jazzy (from PyPI) and this package in it.
 
@@ -13,10 +14,10 @@ BIN := $(VENV)/bin
 READY := $(VENV)/.ready
 DEMO := demo
 
-.PHONY: help setup demo test bench lint clean
+.PHONY: help setup demo test test-all bench lint clean
 
 help:
-	@echo "make demo | test | bench | lint | setup | clean"
+	@echo "make demo | test | test-all | bench | lint | setup | clean"
 
 setup: $(READY)
 
@@ -34,6 +35,9 @@ demo: $(READY)
 
 test: $(READY)
 	@$(BIN)/python -m pytest -n 2 --dist worksteal
+
+test-all: $(READY)
+	@$(BIN)/python -m pytest -n 2 --dist worksteal --all
 
 bench: $(READY)
 	@$(BIN)/python -m pip install --quiet --disable-pip-version-check -r requirements-bench.txt

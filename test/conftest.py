@@ -7,6 +7,7 @@ from pathlib import Path
 import made_runs
 import pytest
 import samples
+from hypothesis import settings
 
 DOMAINS = range(1, 101)
 """Those whose ports lie below the range that Linux hands out."""
@@ -18,6 +19,9 @@ def pytest_addoption(parser):
 
 def pytest_configure(config):
     samples.whole = config.getoption("--all")
+    settings.register_profile("sample", derandomize=True)
+    settings.register_profile("whole")
+    settings.load_profile("whole" if samples.whole else "sample")
 
 
 @pytest.fixture(autouse=True)

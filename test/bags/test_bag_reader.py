@@ -6,6 +6,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+import samples
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from mcap.reader import make_reader
@@ -64,7 +65,7 @@ SCALARS = st.one_of(
 )
 
 
-@settings(deadline=None, max_examples=50)
+@settings(deadline=None, max_examples=50 if samples.whole else 15)
 @given(value=st.one_of(SCALARS, st.lists(st.floats(-1e300, 1e300), min_size=1)))
 def test_any_parameter_comes_back(tmp_path_factory: pytest.TempPathFactory, value: object) -> None:
     path = tmp_path_factory.mktemp("p") / "bag"
@@ -216,7 +217,7 @@ def open_cut(recorded: Recorded, data: bytes, path: Path) -> Run | None:
     return None
 
 
-@settings(deadline=None, max_examples=300)
+@settings(deadline=None, max_examples=300 if samples.whole else 60)
 @given(data=st.data())
 def test_cut_anywhere_gives_a_prefix(
     recorded: Recorded, tmp_path_factory: pytest.TempPathFactory, data: st.DataObject
@@ -254,7 +255,7 @@ def test_cut_anywhere_gives_a_prefix(
     assert run.parameters == recorded.parameters
 
 
-@settings(deadline=None, max_examples=200)
+@settings(deadline=None, max_examples=200 if samples.whole else 60)
 @given(data=st.data())
 def test_damage_anywhere_is_never_another_error(
     recorded: Recorded, tmp_path_factory: pytest.TempPathFactory, data: st.DataObject
