@@ -20,10 +20,9 @@ def pair(make):
     return [make("tora", "nonadaptive"), make("tora")]
 
 
-def with_few_figures(run):
-    """Its motion alone: drawing is what takes time."""
-    topics = {name: run.topics[name] for name in ("joint_states", "desired")}
-    return Run(run.info, run.parameters, topics)
+def with_one_figure(run):
+    """Its commands alone: drawing is what takes time."""
+    return Run(run.info, run.parameters, {"command": run.topics["command"]})
 
 
 @pytest.fixture(scope="module")
@@ -92,13 +91,13 @@ def test_nothing_half_written_is_left_and_files_can_be_read_by_all(written):
 
 
 def test_the_same_runs_give_the_same_files(make, tmp_path):
-    short = [with_few_figures(make("tora", duration=1.0))]
+    short = [with_one_figure(make("tora", duration=1.0))]
     pages = [write_report(short, tmp_path / name) for name in ("first", "second")]
     first, second = (
         {path.relative_to(page.parent): path.read_bytes() for path in page.parent.rglob("*.*")}
         for page in pages
     )
-    assert Path("figures/tracking.svg") in first
+    assert Path("figures/forces.svg") in first
     assert first == second
 
 
@@ -107,7 +106,7 @@ def test_text_is_escaped(make, shorten, tmp_path):
     evil = "<script>alert(1)</script> $x"
     nodes = {**run.parameters, "recorder": {**run.parameters["recorder"], "title": evil}}
     info = {**run.info, "variant": evil, "reason": evil, "version": evil}
-    short = with_few_figures(Run(info, nodes, run.topics))
+    short = with_one_figure(Run(info, nodes, run.topics))
     page = write_report([short], tmp_path).read_text()
     assert "<script" not in page
     assert "&lt;script&gt;alert(1)&lt;/script&gt; $x" in page
@@ -123,7 +122,7 @@ def test_a_run_without_messages_has_a_page(tmp_path):
 def test_a_directory_that_cannot_be_written_is_bad_input(make, tmp_path):
     (tmp_path / "file").write_text("")
     with pytest.raises(BadInput, match=r"cannot write the report to .*file") as caught:
-        write_report([with_few_figures(make("vdp_rfpt", duration=1.0))], tmp_path / "file")
+        write_report([with_one_figure(make("vdp_rfpt", duration=1.0))], tmp_path / "file")
     assert "\n" not in str(caught.value)
     assert [path.name for path in tmp_path.iterdir()] == ["file"]
 
