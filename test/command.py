@@ -2,6 +2,7 @@
 
 import json
 import os
+import signal
 import subprocess
 import sys
 import tempfile
@@ -46,6 +47,7 @@ def _fork_server():
         stdin=subprocess.PIPE,
         stdout=subprocess.PIPE,
         text=True,
+        start_new_session=True,
     )
 
 
@@ -61,9 +63,14 @@ def forked_fpt(*arguments, cwd=None):
             "stdout": str(stdout),
             "stderr": str(stderr),
         }
-        server.stdin.write(json.dumps(request) + "\n")
-        server.stdin.flush()
-        status = int(server.stdout.readline())
+        try:
+            server.stdin.write(json.dumps(request) + "\n")
+            server.stdin.flush()
+            status = int(server.stdout.readline())
+        except BaseException:  # a test's time is over: its answer must not be the next one's
+            os.killpg(server.pid, signal.SIGKILL)
+            _fork_server.cache_clear()
+            raise
         return subprocess.CompletedProcess(
             request["arguments"], status, stdout.read_text(), stderr.read_text()
         )
