@@ -1,5 +1,6 @@
 # make demo   the TORA experiment over DDS, recorded and reported
-# make test   all tests
+# make test   all tests; exhaustive ones (every cut, every variant over DDS) take a sample
+# make test-all   the same without sampling
 # make same-bits REV=...   compares the working tree with a commit, to the last bit
 # make bench  all benchmarks (three quarters of an hour; the machine should be quiet)
 # All set up what is missing: a .venv with ROS 2 Jazzy (from PyPI) and this package in it.
@@ -14,10 +15,10 @@ BIN := $(VENV)/bin
 READY := $(VENV)/.ready
 DEMO := demo
 
-.PHONY: help setup demo test same-bits bench lint clean
+.PHONY: help setup demo test test-all same-bits bench lint clean
 
 help:
-	@echo "make demo | test | same-bits | bench | lint | setup | clean"
+	@echo "make demo | test | test-all | same-bits | bench | lint | setup | clean"
 
 setup: $(READY)
 
@@ -35,6 +36,9 @@ demo: $(READY)
 
 test: $(READY)
 	@$(BIN)/python -m pytest -n 2 --dist worksteal
+
+test-all: $(READY)
+	@$(BIN)/python -m pytest -n 2 --dist worksteal --all
 
 REV ?= HEAD
 same-bits: $(READY)

@@ -20,7 +20,7 @@ OVER_FORM = "--over takes NODE.PARAM or NODE.PARAM=LOW:HIGH each, as in fpt_defo
 
 
 @dataclass(frozen=True)
-class Knob:
+class TunedParameter:
     """A parameter that is tuned, within [low, high]."""
 
     target: Target
@@ -51,7 +51,7 @@ class Knob:
         return abs(value) if self.log else int(value) if self.whole else value
 
 
-def read_knob(text: str, experiment: Experiment) -> Knob:
+def read_tuned_parameter(text: str, experiment: Experiment) -> TunedParameter:
     """Read one part of ``--over``.
 
     Raises:
@@ -81,7 +81,7 @@ def read_knob(text: str, experiment: Experiment) -> Knob:
         low, high = _within(parameter, low, high)
     if not low < high:
         raise BadInput(f"--over {text}: the range is empty; {OVER_FORM}")
-    return Knob(where, low, high, present, parameter.kind == "int")
+    return TunedParameter(where, low, high, present, parameter.kind == "int")
 
 
 def _within(parameter: Parameter, low: float, high: float) -> tuple[float, float]:

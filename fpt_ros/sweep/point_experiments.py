@@ -17,7 +17,7 @@ from fpt_ros.parameters import Parameter, Value, resolve
 from fpt_ros.sweep.grid import Point, is_number
 from fpt_ros.sweep.job import Job
 
-GROUNDS = 32
+KEPT = 32
 """Resolved experiments that are kept of a job: one for each combination of words."""
 
 JOBS = 4
@@ -28,7 +28,7 @@ Key = tuple[str, str]
 
 
 @dataclass(frozen=True)
-class Ground:
+class ResolvedExperiment:
     """A resolved experiment on which numbers are changed.
 
     Attributes:
@@ -59,7 +59,7 @@ class Experiments:
     """The experiments of a job, point by point.
 
     Values that are not numbers may change which parameters there are: each combination of them has
-    a ground of its own.
+    a resolved experiment of its own.
     """
 
     def __init__(self, job: Job) -> None:
@@ -67,7 +67,7 @@ class Experiments:
         axes = job.space.axes
         self._words = [at for at, axis in enumerate(axes) if not axis.numeric]
         self._word_keys = {(axes[at].target.node, axes[at].target.name) for at in self._words}
-        self._grounds: dict[str, Ground] = {}
+        self._resolved: dict[str, ResolvedExperiment] = {}
 
     def at(self, point: Point) -> tuple[Experiment, Loop]:
         """The experiment of a point, and its stages.
@@ -76,17 +76,17 @@ class Experiments:
             BadInput: the parameters of this point are not valid together.
         """
         key = repr([point[at] for at in self._words])
-        ground = self._grounds.get(key)
-        if ground is None:
+        resolved = self._resolved.get(key)
+        if resolved is None:
             experiment = self.job.load(point)
-            if len(self._grounds) >= GROUNDS:
-                self._grounds.pop(next(iter(self._grounds)))
-            self._grounds[key] = self._ground(point, experiment)
+            if len(self._resolved) >= KEPT:
+                self._resolved.pop(next(iter(self._resolved)))
+            self._resolved[key] = self._resolve(point, experiment)
             return experiment, experiment.loop()
         changes = self._changes(point)
-        if all(target in ground.targets for target in changes):
+        if all(target in resolved.targets for target in changes):
             try:
-                return ground.variant(changes)
+                return resolved.variant(changes)
             except BadInput:
                 pass  # the loader has the last word
         experiment = self.job.load(point)
@@ -96,7 +96,7 @@ class Experiments:
         every = self.job.values(point)
         return {key: value for key, value in every.items() if key not in self._word_keys}
 
-    def _ground(self, point: Point, experiment: Experiment) -> Ground:
+    def _resolve(self, point: Point, experiment: Experiment) -> ResolvedExperiment:
         """Find out where each number goes: the loader says it, for a value that is close by."""
         targets = {}
         for key, value in self._changes(point).items():
@@ -109,7 +109,7 @@ class Experiments:
                 if found:
                     targets[key] = found
                     break
-        return Ground(experiment, targets)
+        return ResolvedExperiment(experiment, targets)
 
 
 def experiments_of(job: Job) -> Experiments:
