@@ -79,7 +79,9 @@ def _load(group: str, called: str, name: str) -> object:
     if not points:
         raise BadInput(f"no {called} are registered: is fpt_ros installed? run make setup")
     if name not in points:
-        raise BadInput(f"'{name}' is none of the {called}: {', '.join(sorted(points, key=_none_first))}")
+        raise BadInput(
+            f"'{name}' is none of the {called}: {', '.join(sorted(points, key=_none_first))}"
+        )
     try:
         return points[name].load()
     except SyntaxError as error:
