@@ -1,6 +1,7 @@
 """A filter of the loop over a whole record, as ``fpt denoise --streaming`` wants it."""
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -45,10 +46,12 @@ def over_record(name: str, y: Signal, dt: float, **settings: Value) -> Filtered:
     law = FILTERS[name]
     values = resolve((ORDER, *law.parameters), settings, name)
     constants = np.array(law.prepare(values, 1, dt), dtype=float)
-    state = np.zeros(law.state_size(constants, 1))
+    size: Any = law.state_size
+    state = np.zeros(size(constants, 1))
     unknown = np.full(1, np.nan)
-    law.start(constants, state, record[:1], unknown)
-    update = compiled.law(law.update, Update)
+    start: Any = law.start
+    start(constants, state, record[:1], unknown)
+    update: Any = compiled.law(law.update, Update)
     out = np.full((len(record), 3, 1), np.nan)
     for k in range(1, len(record)):
         update(constants, state, dt, record[k : k + 1], unknown, *out[k])
