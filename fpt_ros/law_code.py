@@ -10,7 +10,7 @@ import builtins
 import dis
 import math
 from array import array
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from functools import cache
 from inspect import getclosurevars
 from types import BuiltinFunctionType, CodeType, FunctionType, ModuleType
@@ -98,7 +98,9 @@ class _Reader:
         for code in _codes(function.__code__):
             self._read_code(code, function, enclosed)
 
-    def _read_code(self, code: CodeType, function: FunctionType, enclosed: dict[str, Any]) -> None:
+    def _read_code(
+        self, code: CodeType, function: FunctionType, enclosed: Mapping[str, Any]
+    ) -> None:
         line, module, name = code.co_firstlineno, None, ""
         for instruction in dis.get_instructions(code):
             if instruction.positions is not None and instruction.positions.lineno is not None:

@@ -37,7 +37,7 @@ class Watched(MutableSequence[float]):
         inside = [NOT_WRITTEN] * self._n if mode == "out" else values
         self._whole = array("d", [GUARD] * GUARDS + list(inside) + [GUARD] * GUARDS)
         self._before = self._whole.tobytes()
-        self.memory = memoryview(self._whole)[GUARDS : GUARDS + self._n]
+        self.memory: Any = memoryview(self._whole)[GUARDS : GUARDS + self._n]
 
     def __len__(self) -> int:
         return self._n
