@@ -132,20 +132,25 @@ REASON = re.compile(
     r"|.*(?:not supported|unsupported).*)$",
     re.MULTILINE | re.IGNORECASE,
 )
-PLACE = re.compile(r'File "([^"]+)", line (\d+)')
+PLACE = re.compile(r"^\s*During: .* at (/.+) \((\d+)\)$", re.MULTILINE)
 
 
 def _why(error: Exception, function: FunctionType) -> str:
-    """One line of numba's many: the innermost reason, and the place in the law's own files."""
+    """One line of numba's many: the innermost reason, and the place in the law's own file."""
     text = re.sub(r"\x1b\[[0-9;]*m", "", str(error))
+    chain = [function, *law_code.read(function).functions]
+    laws_of_others = [each for each in chain if not each.__module__.startswith(law_code.OWN)]
+    own = laws_of_others or chain
+    outer = [f"Function(<function {each.__name__} at " for each in chain]
+    reasons = [each for each in REASON.findall(text) if not any(start in each for start in outer)]
     lines = [line for line in map(str.strip, text.splitlines()) if line]
-    reasons = REASON.findall(text)
-    why = reasons[-1] if reasons else (lines[0] if lines else type(error).__name__)
-    why = re.sub(r"<(?:built-in )?(?:function|class) '?([\w.]+)[^>]*>", r"\1", why).rstrip(":. ")
-    places = [place for place in PLACE.findall(text) if Path(place[0]).is_file()]
-    first = (function.__code__.co_filename, str(function.__code__.co_firstlineno))
-    file, line = places[-1] if places else first
-    return f"{file}, line {line}: {why}"
+    why = (reasons or lines or [type(error).__name__])[-1 if reasons else 0]
+    why = re.sub(r"<(?:built-in )?(?:function|class|module) '?([\w.]+)[^>]*>", r"\1", why)
+    files = {each.__code__.co_filename for each in own}
+    places = [place for place in PLACE.findall(text) if place[0] in files]
+    first = (own[0].__code__.co_filename, str(own[0].__code__.co_firstlineno))
+    file, line = places[0] if places else first
+    return f"{file}, line {line}: {why.strip().rstrip(':. ')}"
 
 
 def _told_apart(function: FunctionType) -> FunctionType:

@@ -2,6 +2,7 @@
 
 import traceback
 from collections.abc import Callable
+from functools import partial
 from typing import Any
 
 from fpt_ros.cycle import loop as cycle
@@ -11,7 +12,7 @@ from fpt_ros.errors import RunFailed
 
 def in_python(laws: tuple[Callable[..., Any], ...]) -> Callable[..., int]:
     """The loop with these laws, cycle by cycle: what Python raises ends a cycle as a NaN does."""
-    run_cycle: Callable[..., int] = cycle.run
+    whole: Callable[..., int] = partial(cycle.run, *laws)
 
     def run(
         first: int,
@@ -24,7 +25,7 @@ def in_python(laws: tuple[Callable[..., Any], ...]) -> Callable[..., int]:
         for k in range(first, last):
             row = _row(rows, k - first)
             try:
-                reached = run_cycle(*laws, k, k + 1, constants, memory, work, row)
+                reached = whole(k, k + 1, constants, memory, work, row)
             except (ArithmeticError, ValueError):
                 return k
             except Exception as error:
@@ -42,7 +43,6 @@ def in_python(laws: tuple[Callable[..., Any], ...]) -> Callable[..., int]:
 
 def _row(rows: CycleRows, i: int) -> CycleRows:
     """The rows of one cycle."""
-    matrices: Any = rows
-    parts: Any = [type(each)(*[matrix[i : i + 1] for matrix in each]) for each in matrices[:-1]]
-    parts.append(matrices[-1][i : i + 1])
+    parts: Any = [type(each)(*[matrix[i : i + 1] for matrix in each]) for each in rows[:-1]]
+    parts.append(rows.noise[i : i + 1])
     return CycleRows(*parts)

@@ -3,7 +3,7 @@
 import struct
 from array import array
 from collections.abc import Iterator, MutableSequence, Sequence
-from typing import Any, cast
+from typing import Any
 
 NOT_WRITTEN = struct.unpack("d", struct.pack("Q", 0x7FF8_F970_0000_0001))[0]
 """A NaN that no computation gives: what is still there has not been written."""
@@ -37,8 +37,7 @@ class Watched(MutableSequence[float]):
         inside = [NOT_WRITTEN] * self._n if mode == "out" else values
         self._whole = array("d", [GUARD] * GUARDS + list(inside) + [GUARD] * GUARDS)
         self._before = self._whole.tobytes()
-        whole = cast("memoryview[float]", memoryview(self._whole))
-        self.memory = whole[GUARDS : GUARDS + self._n]
+        self.memory: Any = memoryview(self._whole)[GUARDS : GUARDS + self._n]
 
     def __len__(self) -> int:
         return self._n
