@@ -68,7 +68,7 @@ def _make_pointer() -> Any:
 
 def _as_integer(builder: Any, kind: Any, value: Any) -> Any:
     """A number as 64 bits."""
-    from llvmlite import ir  # type: ignore[import-untyped]
+    from llvmlite import ir
     from numba import types as numba_types
 
     types: Any = numba_types

@@ -12,7 +12,8 @@ from fpt_ros.errors import RunFailed
 
 def in_python(laws: tuple[Callable[..., Any], ...]) -> Callable[..., int]:
     """The loop with these laws, cycle by cycle: what Python raises ends a cycle as a NaN does."""
-    whole: Callable[..., int] = partial(cycle.run, *laws)
+    loop: Callable[..., int] = cycle.run
+    whole = partial(loop, *laws)
 
     def run(
         first: int,
@@ -43,6 +44,7 @@ def in_python(laws: tuple[Callable[..., Any], ...]) -> Callable[..., int]:
 
 def _row(rows: CycleRows, i: int) -> CycleRows:
     """The rows of one cycle."""
-    parts: Any = [type(each)(*[matrix[i : i + 1] for matrix in each]) for each in rows[:-1]]
-    parts.append(rows.noise[i : i + 1])
+    matrices: Any = rows
+    parts: Any = [type(each)(*[matrix[i : i + 1] for matrix in each]) for each in matrices[:-1]]
+    parts.append(matrices[-1][i : i + 1])
     return CycleRows(*parts)
