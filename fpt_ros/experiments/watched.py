@@ -3,7 +3,7 @@
 import struct
 from array import array
 from collections.abc import Iterator, MutableSequence, Sequence
-from typing import Any, cast
+from typing import Any
 
 NOT_WRITTEN = struct.unpack("d", struct.pack("Q", 0x7FF8_F970_0000_0001))[0]
 """A NaN that no computation gives: what is still there has not been written."""
