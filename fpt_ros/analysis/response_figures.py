@@ -5,7 +5,8 @@ from collections.abc import Sequence
 import numpy as np
 
 from fpt_ros.analysis import signals, style
-from fpt_ros.analysis.labels import all_names, colour_of, realised
+from fpt_ros.analysis.labels import all_names
+from fpt_ros.analysis.legends import colour_of, realised
 from fpt_ros.analysis.panels import Panels
 from fpt_ros.cycle.tuned import FACTOR
 from fpt_ros.runs.run import Array, Run
