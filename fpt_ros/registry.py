@@ -9,6 +9,7 @@ from importlib.metadata import EntryPoint, entry_points
 from typing import TYPE_CHECKING, cast
 
 from fpt_ros.errors import BadInput
+from fpt_ros.extras import remedy
 
 if TYPE_CHECKING:
     from fpt_ros.denoising.offline import Method
@@ -46,8 +47,9 @@ def _load(kind: str, name: str) -> object:
     try:
         return _group(kind)[name].load()
     except (ImportError, AttributeError) as error:
+        reason = remedy(error) or str(error)
         raise BadInput(
-            f"'{name}' of the {_CALLED.get(kind, kind)} cannot be loaded: {error}"
+            f"'{name}' of the {_CALLED.get(kind, kind)} cannot be loaded: {reason}"
         ) from error
 
 
