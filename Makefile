@@ -1,5 +1,6 @@
 # make demo   the TORA experiment over DDS, recorded and reported
 # make test   all tests
+# make same-bits REV=...   compares the working tree with a commit, to the last bit
 # make bench  all benchmarks (three quarters of an hour; the machine should be quiet)
 # make docs   the documentation as a site, in site/
 # make lock   requirements.lock anew after a change of setup.py (UPGRADE=1: with the newest versions)
@@ -9,6 +10,8 @@
 # A sourced ROS or another venv must not leak into ours.
 unexport PYTHONPATH PYTHONHOME LD_LIBRARY_PATH AMENT_PREFIX_PATH COLCON_PREFIX_PATH
 unexport VIRTUAL_ENV _ROS_WHEELS_BOOTSTRAP_COMPLETE RMW_IMPLEMENTATION
+# uv installs without bytecode: it is written by the first import, where that is allowed
+unexport PYTHONDONTWRITEBYTECODE
 
 PYTHON ?= $(firstword $(foreach p,python3.12 python3.11 python3,$(shell $(p) -c 'import sys; sys.exit(not (3, 11) <= sys.version_info[:2] <= (3, 12))' 2>/dev/null && echo $(p))))
 VENV := .venv
@@ -29,10 +32,10 @@ NEEDS_docs := docs,analysis
 NEEDS_bench := ros,test,bench
 NEEDS_setup := ros,test,lint,docs
 
-.PHONY: help setup demo test bench lint docs lock clean
+.PHONY: help setup demo test same-bits bench lint docs lock clean
 
 help:
-	@echo "make demo | test | bench | lint | docs | setup | lock | clean"
+	@echo "make demo | test | same-bits | bench | lint | docs | setup | lock | clean"
 
 setup: $(VENV)/.setup
 
@@ -40,7 +43,7 @@ setup: $(VENV)/.setup
 $(VENV)/.%: setup.py setup.cfg pyproject.toml package.xml $(LOCK) | $(UV) $(BIN)/python
 	@echo "installing what make $* needs into $(VENV) (half a minute the first time)"
 	@rm -rf *.egg-info  # an older one would hide the entry points of this one
-	@$(UV) pip install --quiet --python $(BIN)/python --constraint $(LOCK) --build-constraint $(LOCK) --editable '.[$(NEEDS_$*)]'
+	@$(UV) pip install --quiet $(if $(filter setup,$*),--compile-bytecode) --python $(BIN)/python --constraint $(LOCK) --build-constraint $(LOCK) --editable '.[$(NEEDS_$*)]'
 	@touch $@
 
 $(BIN)/python:
@@ -56,6 +59,10 @@ demo: $(VENV)/.demo
 
 test: $(VENV)/.test
 	@$(BIN)/python -m pytest -n 2 --dist worksteal
+
+REV ?= HEAD
+same-bits: $(VENV)/.test
+	@$(BIN)/python test/same_bits $(REV) $(OPTIONS)
 
 bench: $(VENV)/.bench
 	@for each in engine streaming sweep start graph realtime; do $(BIN)/python benchmarks/$$each.py || exit 1; done
