@@ -134,6 +134,16 @@ setup(
             "sine = fpt_ros.trajectories.sine:SINE",
             "spline = fpt_ros.trajectories.spline:SPLINE",
         ],
+        "fpt_ros.relaxations": [
+            "pd = fpt_ros.relaxations.pd:PD",
+            "pi = fpt_ros.relaxations.pi:PI",
+            "pid = fpt_ros.relaxations.pid:PID",
+            "value = fpt_ros.relaxations.value:VALUE",
+        ],
+        "fpt_ros.compensators": [
+            "disturbance_observer = fpt_ros.compensators.disturbance_observer:DISTURBANCE_OBSERVER",
+            "none = fpt_ros.compensators.none:NONE",
+        ],
         "fpt_ros.disturbances": [
             "none = fpt_ros.disturbances:NONE",
             "bspline = fpt_ros.disturbances.bspline:BSPLINE",
@@ -141,6 +151,7 @@ setup(
             "sine_noise = fpt_ros.disturbances.sine_noise:SINE_NOISE",
         ],
         "fpt_ros.transformations": [
+            "none = fpt_ros.transformations.none:NONE",
             "atanh = fpt_ros.transformations.atanh:ATANH",
             "rfpt = fpt_ros.transformations.rfpt:RFPT",
             "sgfpt = fpt_ros.transformations.sgfpt:SGFPT",
@@ -150,6 +161,7 @@ setup(
             "fixed_point = fpt_ros.tuning.fixed_point:FIXED_POINT",
             "gain = fpt_ros.tuning.gain:CALCULATED",
             "gram_schmidt = fpt_ros.tuning.gram_schmidt:GRAM_SCHMIDT",
+            "none = fpt_ros.tuning.none:NONE",
             "lyapunov = fpt_ros.tuning.lyapunov:LYAPUNOV",
             "projection = fpt_ros.tuning.projection:PROJECTION",
             "slotine_li = fpt_ros.tuning.slotine_li:SLOTINE_LI",

@@ -17,7 +17,6 @@ from measure import alternate, arguments, median, show
 from numba import njit
 from numpy.typing import NDArray
 
-from fpt_ros import registry
 from fpt_ros.denoising import streaming
 from fpt_ros.engine import compiled
 from fpt_ros.parameters import Value, resolve
@@ -37,13 +36,13 @@ def filtered(update: Any, constants: Array, state: Array, q: Array, v: Array, ou
 
 def run_filter(name: str, q: Array, settings: dict[str, Value]) -> tuple[Array, float]:
     """Estimates of q, v and response (samples, 3), and seconds a sample."""
-    law = registry.streaming_filter(name)
+    law = streaming.FILTERS[name]
     values = resolve((streaming.ORDER, *law.parameters), settings, name)
     constants = np.array(law.prepare(values, 1, DT))
     state = np.zeros(law.state_size(constants, 1))
     samples, v = q.reshape(-1, 1), np.array([math.nan])
     out = np.full((len(q), 3, 1), math.nan)
-    update = compiled.law(law.update, streaming.UPDATE)
+    update = compiled.law(law.update, streaming.Update)
     for rest in (samples[:2], samples):  # the first time it is compiled
         state[:] = 0.0
         law.start(constants, state, q[:1], v)

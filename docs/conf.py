@@ -1,7 +1,6 @@
 """The site: Sphinx, because the docstrings are written for it (:func: roles, Google's sections).
 
-Pages are Markdown (myst). The API is read from the package tree without importing it (autoapi), the
-commands are read from the command line's own definition (``commands.py``), so neither can go stale.
+Pages are Markdown (myst). Commands and API are made by ``site_pages.py`` from the code at each build.
 """
 
 import sys
@@ -16,21 +15,13 @@ author = "The fpt_ros team"
 copyright = author
 release = ElementTree.parse(HERE.parent / "package.xml").findtext("version")
 
-extensions = ["myst_parser", "sphinx.ext.napoleon", "autoapi.extension", "site_pages"]
-source_suffix = {".md": "markdown", ".rst": "restructuredtext"}
+extensions = ["myst_parser", "sphinx.ext.autodoc", "sphinx.ext.napoleon", "site_pages"]
 exclude_patterns = ["_*"]
-
-myst_enable_extensions = ["colon_fence"]
 myst_heading_anchors = 3
 
-autoapi_dirs = ["../fpt_ros"]
-autoapi_root = "reference/api"
-autoapi_options = ["members", "undoc-members", "show-module-summary"]
-autoapi_member_order = "bysource"
-autoapi_add_toctree_entry = False
-autoapi_keep_files = False
-autoapi_python_class_content = "both"
+autodoc_typehints_format = "short"
+napoleon_use_ivar = True  # fields are listed once
+nitpick_ignore_regex = [("py:class", ".*"), ("py:obj", ".*")]  # types of other libraries
 
 html_theme = "furo"
 html_title = f"fpt_ros {release}"
-html_static_path: list[str] = []

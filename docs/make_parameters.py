@@ -8,20 +8,27 @@ import math
 import sys
 from collections.abc import Iterable
 from pathlib import Path
+from typing import Any
 
-from fpt_ros import registry
+from fpt_ros.compensators import COMPENSATORS
 from fpt_ros.cycle.approximate_model import MODEL
-from fpt_ros.cycle.denoiser import METHOD
+from fpt_ros.cycle.denoiser import METHOD, SYNCHRONISED
 from fpt_ros.cycle.fpt_deformer import PARAMETERS as DEFORMER
 from fpt_ros.cycle.parameter_tuner import PARAMETERS as TUNER
 from fpt_ros.cycle.parameter_tuner import TUNE_FROM
 from fpt_ros.cycle.plant_simulator import STRUCTURE
-from fpt_ros.cycle.stage import REALTIME
+from fpt_ros.cycle.stage import CYCLE_TIME, JOINTS, REALTIME
 from fpt_ros.cycle.trajectory_generator import PARAMETERS as TRAJECTORY
-from fpt_ros.denoising.streaming import ORDER
+from fpt_ros.denoising.streaming import FILTERS, ORDER
+from fpt_ros.disturbances import DISTURBANCES
 from fpt_ros.experiments import description
 from fpt_ros.parameters import Parameter, prefixed
-from fpt_ros.tuning import COEFFICIENTS, GAIN, WEIGHTS
+from fpt_ros.plants import MODELS, PLANTS, Factory
+from fpt_ros.registry import Kind
+from fpt_ros.relaxations import RELAXATIONS
+from fpt_ros.trajectories import TRAJECTORIES
+from fpt_ros.transformations import TRANSFORMATIONS
+from fpt_ros.tuning import COEFFICIENTS, GAIN, TUNING_LAWS, WEIGHTS
 
 PAGE = Path(__file__).with_name("parameters.md")
 
@@ -70,57 +77,71 @@ def page() -> str:
     """The whole page."""
     parts = [HEAD]
     parts += ["## plant_simulator\n", table(STRUCTURE)]
-    for name in registry.names("plants"):
-        plant = registry.plant(name)
-        parts.append(f"With `plant: {name}` ({coordinates(plant.coordinates, plant.units)}):\n")
+    for name in PLANTS.names():
+        plant = PLANTS[name]
+        about = "coordinates as its file has them"
+        if not isinstance(plant, Factory):
+            about = coordinates(plant.coordinates, plant.units)
+        parts.append(f"With `plant: {name}` ({about}):\n")
         parts.append(table(prefixed("exact", plant.parameters)))
-    for name in registry.names("disturbances"):
-        parts += own(f"disturbance.kind: {name}", registry.disturbance(name).parameters, True)
-    parts += ["## denoiser\n", words("method", "filters"), table((METHOD, ORDER, REALTIME))]
-    for name in registry.names("filters"):
-        parts += own(f"method: {name}", registry.streaming_filter(name).parameters)
-    parts += ["## trajectory_generator\n", words("trajectory", "trajectories"), table(TRAJECTORY)]
-    for name in registry.names("trajectories"):
-        parts += own(f"trajectory: {name}", registry.trajectory(name).parameters)
-    parts += ["## parameter_tuner\n", words("method", "tuning", "none"), table(TUNER)]
+    for name in DISTURBANCES.names():
+        parts += own(f"disturbance.kind: {name}", DISTURBANCES[name].parameters, "disturbance")
+    parts += ["## denoiser\n", words("method", FILTERS)]
+    parts += [table((METHOD, ORDER, SYNCHRONISED, REALTIME, CYCLE_TIME, JOINTS))]
+    for name in FILTERS.names():
+        parts += own(f"method: {name}", FILTERS[name].parameters)
+    parts += ["## trajectory_generator\n", words("trajectory", TRAJECTORIES)]
+    parts += [words("error_relaxation", RELAXATIONS), table(TRAJECTORY)]
+    for name in TRAJECTORIES.names():
+        parts += own(f"trajectory: {name}", TRAJECTORIES[name].parameters)
+    for name in RELAXATIONS.names():
+        parts += own(f"error_relaxation: {name}", RELAXATIONS[name].parameters)
+    parts += ["## parameter_tuner\n", words("method", TUNING_LAWS), table(TUNER)]
     parts += ["With any method but `none`:\n", table((TUNE_FROM,))]
-    for name in registry.names("tuning"):
-        law = registry.tuning_law(name)
+    for name in TUNING_LAWS.names():
+        law = TUNING_LAWS[name]
+        if not law.tunes:
+            continue
         beside = ", beside `model` and `approximate` (below)" if law.tunes == COEFFICIENTS else ""
         parts.append(f"With `method: {name}`, which tunes {TUNED[law.tunes]}{beside}:\n")
         parts.append(table(law.parameters))
-    parts += ["## fpt_deformer\n", words("transformation", "transformations", "none")]
+    parts += ["## fpt_deformer\n", words("transformation", TRANSFORMATIONS)]
+    parts.append(words("compensator.kind", COMPENSATORS))
     parts.append(table((*DEFORMER, MODEL)))
-    for name in registry.names("transformations"):
-        parts.append(f"With `transformation: {name}`:\n")
-        parts.append(table(registry.transformation(name).parameters))
+    for name in TRANSFORMATIONS.names():
+        parts += own(f"transformation: {name}", TRANSFORMATIONS[name].parameters)
+    for name in COMPENSATORS.names():
+        parts += own(f"compensator.kind: {name}", COMPENSATORS[name].parameters, "compensator")
     parts.append("## The approximate model\n")
     parts.append(
         "Of `fpt_deformer`, and of `parameter_tuner` where a law is in the loop. Usually given "
         "once, in the shared section `/**`.\n"
     )
-    for name in registry.names("models"):
-        model = registry.model(name)
+    for name in MODELS.names():
+        model = MODELS[name]
         if not model.parameters:
             continue
-        tuned = ", ".join(f"`{each}`" for each in model.coefficient_names)
-        parts.append(f"With `model: {name}` (coefficients on `tuning`: {tuned}):\n")
+        tuned = "its coefficients are not tuned"
+        if not isinstance(model, Factory):
+            names = ", ".join(f"`{each}`" for each in model.coefficient_names)
+            tuned = f"coefficients on `tuning`: {names}"
+        parts.append(f"With `model: {name}` ({tuned}):\n")
         parts.append(table(prefixed("approximate", model.parameters)))
     parts += ["## recorder\n", table(description.PARAMETERS)]
     return "\n".join(parts)
 
 
-def own(choice: str, parameters: Iterable[Parameter], disturbance: bool = False) -> list[str]:
+def own(choice: str, parameters: Iterable[Parameter], prefix: str = "") -> list[str]:
     """The parameters that a choice brings with it."""
     rows = tuple(parameters)
     if not rows:
         return []
-    return [f"With `{choice}`:\n", table(prefixed("disturbance", rows) if disturbance else rows)]
+    return [f"With `{choice}`:\n", table(prefixed(prefix, rows) if prefix else rows)]
 
 
-def words(parameter: str, kind: str, *more: str) -> str:
+def words(parameter: str, kind: Kind[Any]) -> str:
     """The registered names that a parameter can have."""
-    names = ", ".join(f"`{name}`" for name in dict.fromkeys((*more, *registry.names(kind))))
+    names = ", ".join(f"`{name}`" for name in kind.names())
     return f"Values of `{parameter}`: {names}.\n"
 
 

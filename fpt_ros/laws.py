@@ -6,12 +6,14 @@ stands on tuples, lists, arrays and mapped memory, gives the same bits on all of
 compiled as it stands by :mod:`fpt_ros.engine.compiled`. So it uses no slices, no ``**``, no
 allocation, and raises nothing: where it is not defined it writes NaN, and the stage says what is
 wrong.
+
+The aliases below are the only types that a law's signature may hold, beside numbers and records
+(``NamedTuple`` classes made of the same). The types of machine code are derived from them.
 """
 
 import math
-from array import array
 from collections.abc import Callable, MutableSequence, Sequence
-from typing import Any, TypeVar, cast
+from typing import Any, Protocol, TypeVar
 
 Vector = Sequence[float]
 """Numbers that are only read: one per coordinate, or a law's constants in their order."""
@@ -19,11 +21,25 @@ Vector = Sequence[float]
 MutableVector = MutableSequence[float]
 """Numbers that a law writes: a result, or its state."""
 
+Indices = Sequence[int]
+"""Places of coordinates in a vector."""
+
+
+class Matrix(Protocol):
+    """Rows of numbers: ``m[row, column]`` is read and written, ``m[row]`` is a vector."""
+
+    def __getitem__(self, at: Any, /) -> Any:
+        """A number, or a row."""
+
+    def __setitem__(self, at: Any, value: Any, /) -> None:
+        """Write a number, or a row."""
+
+    def __len__(self) -> int:
+        """Number of rows."""
+
+
 NOT_CONTROLLED = math.nan
 """Marks, in a vector over all coordinates, those that nobody prescribes in this cycle."""
-
-# Signatures of compiled functions are words, a letter an argument and the result last: v vector,
-# f number, i integer, w vector of integers, m matrix, - nothing.
 
 Function = TypeVar("Function", bound=Callable[..., Any])
 
@@ -35,11 +51,6 @@ def helper(function: Function) -> Function:
     """Mark a function that laws may call: it is compiled with them. It stays what it is."""
     HELPERS.append(function)
     return function
-
-
-def part(state: "array[float]", start: int, end: int | None = None) -> MutableVector:
-    """Some of the numbers of a state, to be read and written where they stand."""
-    return cast(MutableVector, memoryview(state)[start:end])
 
 
 @helper

@@ -1,93 +1,92 @@
 """One registry for everything that has a name in a parameter file: Python entry points.
 
-A plant, model, trajectory, disturbance, transformation, tuning law or filter is found by the name
-under which a package (this one, or a user's own) lists it in the group ``fpt_ros.<kind>``.
+A plant, model, trajectory, relaxation, disturbance, transformation, tuning law, compensator or
+filter is found by the name under which a package (this one, or a user's own) lists it in the group
+``fpt_ros.<kind>``. Each folder of laws has the :class:`Kind` of its own.
 """
 
+from collections import Counter
 from functools import cache
 from importlib.metadata import EntryPoint, entry_points
-from typing import TYPE_CHECKING, cast
+from typing import Generic, TypeVar
 
 from fpt_ros.errors import BadInput
 from fpt_ros.extras import remedy
 
-if TYPE_CHECKING:
-    from fpt_ros.denoising.offline import Method
-    from fpt_ros.denoising.streaming import Filter
-    from fpt_ros.disturbances import Disturbance
-    from fpt_ros.plants import Model, Plant
-    from fpt_ros.trajectories import Trajectory
-    from fpt_ros.transformations import Transformation
-    from fpt_ros.tuning import TuningLaw
+Law = TypeVar("Law")
 
 
-_CALLED = {"tuning": "tuning laws"}
-_NONE = {"transformations": ("none",), "tuning": ("none",)}
-"""Kinds of which a stage can do without one: what it is then called."""
+class Kind(Generic[Law]):
+    """All laws of one kind, by name: ``PLANTS["tora"]``.
+
+    Args:
+        kind: the classes that its laws are instances of.
+        group: of the entry points, without ``fpt_ros.``.
+        called: what messages call them, where the group's name is no plural.
+    """
+
+    def __init__(
+        self, kind: type[Law] | tuple[type[Law], ...], group: str, called: str = ""
+    ) -> None:
+        self._kind = kind
+        self.group = group
+        self.called = called or group
+
+    def names(self) -> tuple[str, ...]:
+        """All registered names, sorted."""
+        return tuple(sorted(_points(self.group)))
+
+    def __getitem__(self, name: str) -> Law:
+        """The law registered as ``name``.
+
+        Raises:
+            BadInput: there is none, or it cannot be loaded.
+        """
+        law = _load(self.group, self.called, name)
+        if not isinstance(law, self._kind):
+            kinds = self._kind if isinstance(self._kind, tuple) else (self._kind,)
+            wanted = " or ".join(kind.__name__ for kind in kinds)
+            raise BadInput(
+                f"'{name}' of the {self.called} is a {type(law).__name__}, not a {wanted}: name "
+                f"the object in setup.py, {_points(self.group)[name].value.partition(':')[0]}:NAME"
+            )
+        return law
 
 
 @cache
-def _group(kind: str) -> dict[str, EntryPoint]:
-    return {point.name: point for point in entry_points(group=f"fpt_ros.{kind}")}
+def _points(group: str) -> dict[str, EntryPoint]:
+    """The entry points of a group by name.
 
-
-def names(kind: str) -> tuple[str, ...]:
-    """All registered names of a kind, sorted."""
-    return tuple(sorted(_group(kind)))
+    Raises:
+        BadInput: two packages have the same name.
+    """
+    points = {(point.name, point.value): point for point in entry_points(group=f"fpt_ros.{group}")}
+    for name, count in Counter(name for name, _ in points).items():
+        if count > 1:
+            values = " and ".join(value for other, value in points if other == name)
+            raise BadInput(
+                f"two packages register '{name}' in the group fpt_ros.{group}, {values}: rename one"
+            )
+    return {name: point for (name, _), point in points.items()}
 
 
 @cache
-def _load(kind: str, name: str) -> object:
-    if name not in _group(kind):
-        called = _CALLED.get(kind, kind)
-        if not names(kind):
-            raise BadInput(f"no {called} are registered: is fpt_ros installed? run make setup")
-        valid = ", ".join((*_NONE.get(kind, ()), *names(kind)))
-        raise BadInput(f"'{name}' is none of the {called}: {valid}")
+def _load(group: str, called: str, name: str) -> object:
+    points = _points(group)
+    if not points:
+        raise BadInput(f"no {called} are registered: is fpt_ros installed? run make setup")
+    if name not in points:
+        raise BadInput(f"'{name}' is none of the {called}: {', '.join(sorted(points))}")
     try:
-        return _group(kind)[name].load()
-    except (ImportError, AttributeError) as error:
-        reason = remedy(error) or str(error)
+        return points[name].load()
+    except SyntaxError as error:
         raise BadInput(
-            f"'{name}' of the {_CALLED.get(kind, kind)} cannot be loaded: {reason}"
+            f"'{name}' of the {called} cannot be loaded: {error.filename}, line {error.lineno}: "
+            f"{error.msg}"
         ) from error
-
-
-def plant(name: str) -> "Plant":
-    """The exact dynamics registered as ``name``."""
-    return cast("Plant", _load("plants", name))
-
-
-def model(name: str) -> "Model":
-    """The approximate model registered as ``name``."""
-    return cast("Model", _load("models", name))
-
-
-def trajectory(name: str) -> "Trajectory":
-    """The nominal trajectory registered as ``name``."""
-    return cast("Trajectory", _load("trajectories", name))
-
-
-def disturbance(name: str) -> "Disturbance":
-    """The disturbance registered as ``name``."""
-    return cast("Disturbance", _load("disturbances", name))
-
-
-def transformation(name: str) -> "Transformation":
-    """The fixed point transformation registered as ``name``."""
-    return cast("Transformation", _load("transformations", name))
-
-
-def tuning_law(name: str) -> "TuningLaw":
-    """The tuning law registered as ``name``."""
-    return cast("TuningLaw", _load("tuning", name))
-
-
-def streaming_filter(name: str) -> "Filter":
-    """The causal filter registered as ``name``."""
-    return cast("Filter", _load("filters", name))
-
-
-def denoiser(name: str) -> "Method":
-    """The denoiser of whole records registered as ``name``."""
-    return cast("Method", _load("denoisers", name))
+    except Exception as error:  # whatever a module of somebody else's does at its import
+        first = str(error).splitlines()[0] if str(error) else type(error).__name__
+        why = remedy(error) or first
+        raise BadInput(
+            f"'{name}' of the {called} cannot be loaded, entry point {points[name].value}: {why}"
+        ) from error

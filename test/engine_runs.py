@@ -2,9 +2,10 @@
 
 import numpy as np
 
+from fpt_ros.cycle.run import Run
 from fpt_ros.engine.engine import Engine
 from fpt_ros.experiments import experiment
-from fpt_ros.messages.topics import COMMAND, DESIRED, JOINT_STATES, STATE_ESTIMATE, TUNING
+from fpt_ros.runs.run import frames
 
 
 def topics_of(name, variant="adaptive", settings=(), duration=None, seed=None):
@@ -20,34 +21,16 @@ def run(loaded):
 
 
 def frames_of(loop):
-    """What a loop shows, in the order of events: (topic, frame)."""
-    seen = []
+    """What the engine shows, in the order of events: (topic, frame)."""
     engine = Engine(loop)
     engine.run()
-    engine.frames(0, lambda topic, frame: seen.append((topic, frame)))
-    return seen
+    return list(frames(engine.topics()))
 
 
 def stage_by_stage(loop, observe, cycles=None):
     """The five stages frame by frame, each called as its node calls it: plain Python."""
-    plant, command = loop.plant, None
-    for cycle in range(plant.cycles if cycles is None else cycles):
-        stamp = cycle * plant.cycle_time
-        measured = plant.measure(stamp, cycle)
-        observe(JOINT_STATES, measured)
-        seen = (command,) if loop.denoiser.synchronised else ()
-        estimate = loop.denoiser.step(measured, *seen)
-        observe(STATE_ESTIMATE, estimate)
-        desired = loop.trajectory.step(estimate)
-        observe(DESIRED, desired)
-        tuning = ()
-        if loop.tuner.active:
-            wanted = (desired,) if loop.tuner.law.desired else ()
-            tuning = (loop.tuner.step(estimate, *wanted, command),)
-            observe(TUNING, *tuning)
-        command = loop.deformer.step(estimate, desired, *tuning)
-        observe(COMMAND, command)
-        plant.advance(command, stamp)
+    for topic, frame in Run(loop).frames(cycles):
+        observe(topic, frame)
 
 
 def tracking_errors(topics):

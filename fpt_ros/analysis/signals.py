@@ -10,14 +10,13 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from fpt_ros import registry
 from fpt_ros.cycle.plant_simulator import PlantSimulator
 from fpt_ros.cycle.trajectory_generator import TrajectoryGenerator
 from fpt_ros.errors import BadInput
 from fpt_ros.experiments.nominal import sample
 from fpt_ros.messages.frames import SECOND
 from fpt_ros.parameters import Value
-from fpt_ros.plants import Plant
+from fpt_ros.plants import MODELS, PLANTS, Model, Plant, made
 from fpt_ros.runs.run import Array, Run
 
 Stamps = NDArray[np.int64]
@@ -156,8 +155,9 @@ def _noise(run: Run, coordinate: str, stamps: Stamps) -> Array | float:
         return 0.0
     plant = PlantSimulator(run.parameters[PlantSimulator.name])
     n, at = len(plant.coordinates), plant.coordinates.index(coordinate)
-    table = np.asarray(plant.noise(), dtype=np.float64).reshape(plant.cycles, 2 * n)
-    noise: Array = plant.sigma[0] * table[(stamps - origin(run)) // plant.cycle_time, at]
+    table = np.empty((plant.cycles, 2 * n))
+    plant.noise.rows(0, table)
+    noise: Array = plant.constants.sigma_q * table[(stamps - origin(run)) // plant.cycle_time, at]
     return noise
 
 
@@ -210,8 +210,9 @@ def period(motions: Iterable[Motion]) -> float | None:
 def plant_of(run: Run) -> Plant | None:
     """The run's plant; ``None`` where it is not installed here."""
     try:
-        return registry.plant(str(parameter(run, "plant_simulator", "plant")))
-    except BadInput:
+        plant = PLANTS[str(parameter(run, "plant_simulator", "plant"))]
+        return made(plant, run.parameters.get("plant_simulator", {}), "exact")
+    except (BadInput, KeyError):
         return None
 
 
@@ -231,12 +232,19 @@ def effort_unit(run: Run, coordinate: str) -> str:
     return plant.effort_units[plant.coordinates.index(coordinate)]
 
 
+def model_of(run: Run) -> Model | None:
+    """The run's approximate model; ``None`` where it is not installed here."""
+    try:
+        model = MODELS[str(parameter(run, "fpt_deformer", "model"))]
+        return made(model, run.parameters.get("fpt_deformer", {}), "approximate")
+    except (BadInput, KeyError):
+        return None
+
+
 def coefficient_names(run: Run) -> set[str]:
     """Names of the model's coefficients; empty where the model is not installed here."""
-    try:
-        return set(registry.model(str(parameter(run, "fpt_deformer", "model"))).coefficient_names)
-    except BadInput:
-        return set()
+    model = model_of(run)
+    return set() if model is None else set(model.coefficient_names)
 
 
 def exact_coefficients(run: Run) -> dict[str, float]:
@@ -245,9 +253,8 @@ def exact_coefficients(run: Run) -> dict[str, float]:
     Empty where the model has parameters that the plant does not know (an affine model, say): then
     there are no exact values.
     """
-    try:
-        model = registry.model(str(parameter(run, "fpt_deformer", "model")))
-    except BadInput:
+    model = model_of(run)
+    if model is None:
         return {}
     values = []
     for p in model.parameters:

@@ -153,12 +153,12 @@ def _compare(source: "Source", json: bool) -> None:
 
     import numpy as np
 
-    from fpt_ros import registry
     from fpt_ros.cli.output import console, print_json
+    from fpt_ros.denoising.offline import DENOISERS
     from fpt_ros.errors import BadInput
 
     rows: list[dict[str, str | float]] = []
-    for name in registry.names("denoisers"):
+    for name in DENOISERS.names():
         started = process_time()
         try:
             result = _run(source, name, [])

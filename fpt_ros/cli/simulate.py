@@ -39,22 +39,23 @@ def simulate(
     from fpt_ros.analysis.metrics import summary
     from fpt_ros.bags.recording import EngineRecording
     from fpt_ros.cli.output import print_result, progress_bar
+    from fpt_ros.engine.buffers import Whole
     from fpt_ros.engine.engine import Engine
     from fpt_ros.errors import Interrupted, RunFailed
     from fpt_ros.runs.run import Run, describe
 
     failure: RunFailed | Interrupted | None = None
     started = perf_counter()
-    engine = Engine(experiment.loop())
+    loop, whole = experiment.loop(), Whole()
     title = f"{experiment.name} {experiment.variant}"
     with (
         interrupts() as interrupted,
-        EngineRecording(record, experiment, engine) as recording,
-        progress_bar(title, engine.cycles) as bar,
+        EngineRecording(record, experiment) as recording,
+        progress_bar(title, loop.plant.cycles) as bar,
     ):
+        engine = Engine(loop, consumers=(whole, recording))
 
         def progress(cycle: int) -> None:
-            recording.update()
             bar(cycle)
             if interrupted:
                 raise Interrupted(f"interrupted in cycle {cycle}")
@@ -67,7 +68,7 @@ def simulate(
             recording.reason = str(error)
     ended = perf_counter()
     info = describe(experiment, "in_process", str(failure or ""))
-    result = summary(Run(info, experiment.nodes, engine.topics()))
+    result = summary(Run(info, experiment.nodes, whole.topics()))
     cycles = result["cycles"]
     assert isinstance(cycles, int)
     print_result(

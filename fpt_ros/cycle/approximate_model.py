@@ -2,10 +2,11 @@
 
 from dataclasses import replace
 
-from fpt_ros import registry
-from fpt_ros.parameters import Parameter, Values, prefixed
+from fpt_ros.parameters import Parameter, Values, group, prefixed, word
+from fpt_ros.plants import MODELS, Model, made
 
 MODEL = Parameter("model", "approximate model, by its registered name", kind="str", live=False)
+PREFIX = "approximate"
 
 
 def model_parameters(given: Values, live: bool) -> tuple[Parameter, ...]:
@@ -16,5 +17,11 @@ def model_parameters(given: Values, live: bool) -> tuple[Parameter, ...]:
     name = given.get("model")
     if not isinstance(name, str):
         return (MODEL,)
-    own = prefixed("approximate", registry.model(name).parameters)
-    return (MODEL, *(replace(parameter, live=live) for parameter in own))
+    own = prefixed(PREFIX, MODELS[name].parameters)
+    return (MODEL, *(replace(parameter, live=parameter.live and live) for parameter in own))
+
+
+def model_of(values: Values) -> tuple[Model, list[float]]:
+    """The model that checked parameters name, and its coefficients."""
+    model = made(MODELS[word(values, "model")], values, PREFIX)
+    return model, list(model.coefficients(group(values, PREFIX, model.parameters)))

@@ -1,16 +1,17 @@
 """Stage 2 of the cycle: from what is measured to the motion and the observed response."""
 
 import math
-from array import array
-from collections.abc import Callable
+from typing import NamedTuple
 
-from fpt_ros import registry
-from fpt_ros.cycle.stage import CYCLE_TIME, REALTIME, Input, Stage
-from fpt_ros.denoising.streaming import ORDER
+from fpt_ros.cycle.joints import Entrance
+from fpt_ros.cycle.records import Layout
+from fpt_ros.cycle.rows import Commanded, Measured, StateEstimateRow, no_command
+from fpt_ros.cycle.stage import CYCLE_TIME, JOINTS, REALTIME, Input, Stage
+from fpt_ros.denoising.streaming import FILTERS, ORDER, Update
 from fpt_ros.laws import MutableVector, Vector, helper
 from fpt_ros.messages.frames import Command, JointStates, StateEstimate
 from fpt_ros.messages.topics import COMMAND, JOINT_STATES, STATE_ESTIMATE
-from fpt_ros.parameters import Parameter, Values, flag, word
+from fpt_ros.parameters import Parameter, Values, flag, number, word, words
 
 METHOD = Parameter(
     "method",
@@ -31,51 +32,116 @@ SYNCHRONISED = Parameter(
 """Of denoiser and deformer alike: the one works it out, the other makes use of it."""
 
 
+class DenoiserConstants(NamedTuple):
+    """Fixed: the filter's constants, and whether a second filter is shown r."""
+
+    filter: Vector
+    synchronised: int
+
+
+class DenoiserMemory(NamedTuple):
+    """State of the filter; synchronised: of a second one, position and velocity that it sees."""
+
+    filter: MutableVector
+    second: MutableVector
+    position: MutableVector
+    velocity: MutableVector
+
+
+class DenoiserWork(NamedTuple):
+    """What nobody reads: the second filter's position and velocity, n each."""
+
+    position: MutableVector
+    velocity: MutableVector
+
+
+@helper
+def show_first(measured: Measured, out: StateEstimateRow) -> None:
+    """The first cycle: what is measured, at rest where no velocity is; no response is known."""
+    q, v = measured.position, measured.velocity
+    for i in range(len(q)):
+        out.positions[i], out.velocities[i] = q[i], 0.0
+        if not math.isnan(v[i]):
+            out.velocities[i] = v[i]
+        out.accelerations[i], out.deformed[i] = math.nan, math.nan
+
+
+@helper
+def filter_motion(
+    update: Update,
+    constants: DenoiserConstants,
+    memory: DenoiserMemory,
+    work: DenoiserWork,
+    dt: float,
+    measured: Measured,
+    command: Commanded,
+    out: StateEstimateRow,
+) -> None:
+    """The filtered motion of a later cycle, ``command`` being that of the cycle before."""
+    q, v, deformed = measured.position, measured.velocity, out.deformed
+    update(
+        constants.filter,
+        memory.filter,
+        dt,
+        q,
+        v,
+        out.positions,
+        out.velocities,
+        out.accelerations,
+    )
+    for i in range(len(q)):
+        deformed[i] = math.nan
+    if constants.synchronised:
+        synchronise(update, constants, memory, work, dt, command.accelerations, deformed)
+
+
 @helper
 def synchronise(
-    update: Callable[..., None],
-    constants: Vector,
-    state: MutableVector,
-    motion: MutableVector,
+    update: Update,
+    constants: DenoiserConstants,
+    memory: DenoiserMemory,
+    work: DenoiserWork,
     dt: float,
     r: Vector,
-    out_q: MutableVector,
-    out_v: MutableVector,
     out: MutableVector,
 ) -> None:
     """The deformed response r as the filter shows it: filtered is the motion that r would cause.
 
-    ``motion``: position and velocity of that motion, n each, by explicit Euler as the plant's;
-    ``state``: that of a second filter of the same kind, which is shown it. Exact for filters that
-    are linear; of a bank, for one member.
+    That motion goes on by explicit Euler as the plant's; a second filter of the same kind is shown
+    it. Exact for filters that are linear; of a bank, for one member.
     """
-    n = len(out)
-    for i in range(n):
-        motion[i] += dt * motion[n + i]
+    q, v = memory.position, memory.velocity
+    for i in range(len(out)):
+        q[i] += dt * v[i]
         if not math.isnan(r[i]):
-            motion[n + i] += dt * r[i]
-    update(constants, state, dt, motion[:n], motion[n:], out_q, out_v, out)
-    for i in range(n):
+            v[i] += dt * r[i]
+    update(constants.filter, memory.second, dt, q, v, work.position, work.velocity, out)
+    for i in range(len(out)):
         if math.isnan(r[i]):
             out[i] = math.nan
 
 
 class Denoiser(Stage):
-    """A causal filter between the plant and the controller.
+    """A causal filter between the plant and the controller. State: :class:`DenoiserMemory`.
 
-    State: that of the filter; where it is synchronised, also that of a second one and the motion
-    that it sees. Before the second sample, which tells the time between two, the first one.
+    Where neither a parameter tells the cycle time, the state is sized at the second sample, by the
+    gap between the first two.
     """
 
     name = "denoiser"
     output = STATE_ESTIMATE
+    memory: DenoiserMemory
+    constants: DenoiserConstants
+    _n = 0
+    _dt = 0.0
+    _first: JointStates | None = None
 
     @classmethod
     def parameters(cls, given: Values) -> tuple[Parameter, ...]:
         """Those of the stage and of the filter."""
         method = str(given.get("method", METHOD.default))
-        own = registry.streaming_filter(method).parameters
-        return (METHOD, ORDER, SYNCHRONISED, *own, REALTIME, CYCLE_TIME)
+        own = FILTERS[method].parameters
+        return (METHOD, ORDER, SYNCHRONISED, *own, REALTIME, CYCLE_TIME, JOINTS)
 
     @property
     def inputs(self) -> tuple[Input, ...]:
@@ -84,51 +150,74 @@ class Denoiser(Stage):
         return (Input(JOINT_STATES), *command)
 
     def _prepare(self) -> None:
-        self.filter = registry.streaming_filter(word(self.values, "method"))
-        self.synchronised = flag(self.values, "synchronised")
-        self.constants: list[float] = []
-        self._size = 0
+        values = self.values
+        self.filter = FILTERS[word(values, "method")]
+        self.synchronised = flag(values, "synchronised")
+        if not self._n:
+            joints = tuple(words(values, "joints"))
+            self._measured = Entrance(f"{self.name}, joint_states", joints)
+            self._commanded = Entrance(f"{self.name}, command", joints)
+            self.entrances = {JOINT_STATES.name: self._measured, COMMAND.name: self._commanded}
+            self._size(len(joints), number(values, "cycle_time"))
+        else:
+            self._size(self._n, self._dt)
 
-    def begin(self, q: list[float], v: list[float], dt: float) -> None:
-        """Size the state for samples dt [s] apart, and take the first one."""
-        self._set_constants(len(q), dt)
-        self.state = array("d")
-        motion = [*q, *([0.0] * len(q))] if self.synchronised else []
-        filters = 2 if self.synchronised else 1
-        self.state.extend([0.0] * (filters * self._size) + motion)
-        self.filter.start(self.constants, self.parts()[0], q, v)
+    def _size(self, n: int, dt: float) -> None:
+        """Constants for samples dt [s] apart, and the memory; once both are known."""
+        self._n, self._dt = n, dt
+        if not n or dt == 0.0:
+            return
+        constants = list(self.filter.prepare(self.values, n, dt))
+        self.constants = DenoiserConstants(constants, int(self.synchronised))
+        size, second = self.filter.state_size(constants, n), int(self.synchronised)
+        layout = Layout(
+            DenoiserMemory,
+            filter=size,
+            second=second * size,
+            position=second * n,
+            velocity=second * n,
+        )
+        self.memory, _ = self._remember(layout)
+        self.work = DenoiserWork([0.0] * n, [0.0] * n)
+
+    def begin(self, first: JointStates, dt: float = 0.0) -> None:
+        """Take the first sample; ``dt`` [s] where no parameter tells it."""
+        q, v = list(first.position), list(first.velocity)
+        if not self.sized:
+            self._size(len(q), self._dt or dt)
+        filter_constants = self.constants.filter
+        self.filter.start(filter_constants, self.memory.filter, q, v)
         if self.synchronised:
-            self.filter.start(self.constants, self.parts()[1], q, motion[len(q) :])
+            at_rest = [0.0] * len(q)
+            for i, x in enumerate(q):
+                self.memory.position[i], self.memory.velocity[i] = x, 0.0
+            self.filter.start(filter_constants, self.memory.second, q, at_rest)
 
-    def parts(self) -> tuple[MutableVector, ...]:
-        """The state: of the filter, of the second one, and of the motion that it sees."""
-        size = self._size
-        return self._divide(size, (2 if self.synchronised else 1) * size)
-
-    def _set_constants(self, n: int, dt: float) -> None:
-        self.constants = list(self.filter.prepare(self.values, n, dt))
-        self._size = self.filter.state_size(self.constants, n)
+    @property
+    def sized(self) -> bool:
+        """Whether joints and cycle time are known."""
+        return bool(self._n) and self._dt > 0.0
 
     def step(self, measured: JointStates, command: Command | None = None) -> StateEstimate:
         """Filtered motion at t_k and the response to r_{k-1}; NaN for it in the first cycle."""
-        stamp, names, q, v, _ = measured
-        n = len(names)
-        t, dt = self._advance_clock(stamp)
-        unknown = [math.nan] * n
-        if not self.state:
-            self.state.extend([*q, *v])
-            at_rest = [0.0 if math.isnan(x) else x for x in v]  # what is not measured is so taken
-            return StateEstimate(stamp, names, q, at_rest, unknown, unknown)
-        if t == dt and not self._size:  # the second sample
-            self.begin(list(self.state[:n]), list(self.state[n:]), dt)
-        elif not self._size:  # changed in flight, or come back
-            self._set_constants(n, dt)
-        out_q, out_v, response = [0.0] * n, [0.0] * n, [0.0] * n
-        first, second, motion = self.parts()
-        self.filter.update(self.constants, first, dt, q, v, out_q, out_v, response)
-        if not self.synchronised or command is None:
-            return StateEstimate(stamp, names, out_q, out_v, response, unknown)
-        seen, work = [0.0] * n, ([0.0] * n, [0.0] * n)
-        r = command.accelerations
-        synchronise(self.filter.update, self.constants, second, motion, dt, r, *work, seen)
-        return StateEstimate(stamp, names, out_q, out_v, response, seen)
+        measured = self._measured.take(measured)
+        stamp, names, n = measured.stamp, measured.names, len(measured.names)
+        first = self.clock[0] < 0
+        _, dt = self._advance_clock(stamp)
+        out = StateEstimateRow([0.0] * n, [0.0] * n, [0.0] * n, [0.0] * n)
+        if first:
+            show_first(measured, out)
+            if self.sized or self._dt:
+                self.begin(measured)
+            else:
+                self._first = measured
+            return StateEstimate(stamp, names, *out)
+        if not self.sized:
+            self.begin(self._first or measured, dt)
+        update, constants, memory = self.filter.update, self.constants, self.memory
+        if command is None:
+            before, constants = no_command(names), constants._replace(synchronised=0)
+        else:
+            before = self._commanded.take(command)
+        filter_motion(update, constants, memory, self.work, dt, measured, before, out)
+        return StateEstimate(stamp, names, *out)

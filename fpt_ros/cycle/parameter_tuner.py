@@ -1,18 +1,20 @@
 """Stage 4 of the cycle: what was observed corrects the model, the gain or the weights."""
 
-from collections.abc import Callable
-from itertools import accumulate
+from typing import NamedTuple
 
-from fpt_ros import registry
-from fpt_ros.cycle.approximate_model import model_parameters
-from fpt_ros.cycle.stage import CYCLE_TIME, REALTIME, Input, Stage, indices
-from fpt_ros.cycle.tuned import FACTOR, PRECURSOR, WEIGHT
+from fpt_ros.cycle.approximate_model import model_of, model_parameters
+from fpt_ros.cycle.joints import Entrance
+from fpt_ros.cycle.records import Layout
+from fpt_ros.cycle.rows import NO_DESIRED, Commanded, Estimated, TuningRow, Wanted
+from fpt_ros.cycle.stage import CYCLE_TIME, JOINTS, REALTIME, Input, Stage, indices
+from fpt_ros.cycle.tuned import CONTROLLED, FACTOR, PRECURSOR, WEIGHT
 from fpt_ros.errors import BadInput
-from fpt_ros.laws import MutableVector, Vector, helper
+from fpt_ros.laws import Indices, MutableVector, Vector, helper
 from fpt_ros.messages.frames import SECOND, Command, Desired, Names, StateEstimate, Tuning
 from fpt_ros.messages.topics import COMMAND, DESIRED, STATE_ESTIMATE, TUNING
-from fpt_ros.parameters import Parameter, Values, flag, group, number, word
-from fpt_ros.tuning import COEFFICIENTS, GAIN, TuningLaw
+from fpt_ros.parameters import Parameter, Values, flag, number, word, words
+from fpt_ros.plants import Regressor
+from fpt_ros.tuning import COEFFICIENTS, GAIN, TUNING_LAWS, Seen, Update
 from fpt_ros.tuning.precursor import guarded, memory_size, observe
 
 NONE = "none"
@@ -23,9 +25,14 @@ PARAMETERS = (
     Parameter("precursor_guard", "lower the gain while they are there", False),
     REALTIME,
     CYCLE_TIME,
+    JOINTS,
+    CONTROLLED,
 )
 
 TUNE_FROM = Parameter("tune_from", "time at which the tuning starts", 0.0, unit="s", minimum=0.0)
+
+FIRST, WATCHING, TUNING_NOW = 0, 1, 2
+"""Phases of a tuner: no command has been seen yet; only the observer runs; the law runs too."""
 
 
 def in_the_loop(values: Values) -> bool:
@@ -34,98 +41,141 @@ def in_the_loop(values: Values) -> bool:
     return watches or values.get("method", NONE) != NONE
 
 
+class TunerConstants(NamedTuple):
+    """Fixed: the law's constants, places of the controlled coordinates (where the law needs them).
+
+    ``reference``: Y is taken at the reference motion; ``guards``: the precursor guard acts;
+    ``signals``: how many numbers of the law's memory are published; ``tune_from`` [s].
+    """
+
+    law: Vector
+    where: Indices
+    reference: int
+    guards: int
+    signals: int
+    tune_from: float
+
+
+class TunerMemory(NamedTuple):
+    """What is tuned, the law's memory, and the cycle before.
+
+    Of the cycle before: ``position``, ``velocity`` (n each), ``desired`` response (c) and
+    ``tracking``: e, e', s (c each). ``factor`` of the gain (1), ``observer``: the precursor
+    observer's memory.
+    """
+
+    values: MutableVector
+    law: MutableVector
+    position: MutableVector
+    velocity: MutableVector
+    desired: MutableVector
+    tracking: MutableVector
+    factor: MutableVector
+    observer: MutableVector
+
+
+class TunerWork(NamedTuple):
+    """Velocity and acceleration at which Y is taken (n each), Y, E, the response error h (c)."""
+
+    w: MutableVector
+    a: MutableVector
+    Y: MutableVector
+    error: MutableVector
+    h: MutableVector
+
+
 @helper
 def tune(
-    update: Callable[..., None],
-    regressor: Callable[..., None],
-    reference: int,
-    constants: Vector,
-    where: "tuple[int, ...] | list[int]",
+    update: Update,
+    regressor: Regressor,
+    constants: TunerConstants,
+    memory: TunerMemory,
+    work: TunerWork,
     dt: float,
-    values: MutableVector,
-    memory: MutableVector,
-    last: MutableVector,
-    tracking: MutableVector,
-    response: Vector,
-    desired: Vector,
-    effort: Vector,
-    r: Vector,
-    w: MutableVector,
-    a: MutableVector,
-    Y: MutableVector,
-    error: MutableVector,
-    h: MutableVector,
+    estimate: Estimated,
+    desired: Wanted,
+    command: Commanded,
 ) -> None:
-    """One cycle of a tuning law: Y and E of the cycle before, now that its response is known.
-
-    ``last``: q, v (n each) and the desired response (c) of the cycle before; ``tracking``: e, e', s
-    of it (c each). w, a, h: work vectors of n, n, c numbers.
-    """
-    n, c = len(w), len(h)
-    for i in range(n):
-        w[i], a[i] = last[n + i], response[i]
+    """One cycle of a tuning law: Y and E of the cycle before, now that its response is known."""
+    response, wanted, where = estimate.accelerations, desired.accelerations, constants.where
+    w, a, Y, error, h = work.w, work.a, work.Y, work.error, work.h
+    values, tracking = memory.values, memory.tracking
+    c = len(where)
+    for i in range(len(w)):
+        w[i], a[i] = memory.velocity[i], response[i]
     for i in range(c):
         at = where[i]
-        h[i] = response[at] - desired[i]
-        if reference:
-            w[at] = last[n + at] + tracking[2 * c + i]
-            a[at] = last[2 * n + i]
+        h[i] = response[at] - wanted[i]
+        if constants.reference:
+            w[at] = memory.velocity[at] + tracking[2 * c + i]
+            a[at] = memory.desired[i]
     if len(Y) > 0:
         size = len(values)
-        regressor(last, last[n:], w, a, Y)
+        regressor(memory.position, memory.velocity, w, a, Y)
         for i in range(len(error)):
             total = 0.0
             for j in range(size):
                 total += Y[i * size + j] * values[j]
-            error[i] = effort[i] - total
-    update(constants, memory, dt, values, Y, error, tracking, h, r)
+            error[i] = command.effort[i] - total
+    seen = Seen(Y, error, tracking, h, command.accelerations)
+    update(constants.law, memory.law, dt, values, seen)
 
 
 @helper
 def remember(
-    where: "tuple[int, ...] | list[int]",
-    last: MutableVector,
-    tracking: MutableVector,
-    q: Vector,
-    v: Vector,
-    nominal_q: Vector,
-    nominal_v: Vector,
-    desired: Vector,
-    s: Vector,
+    constants: TunerConstants, memory: TunerMemory, estimate: Estimated, desired: Wanted
 ) -> None:
     """Keep what the next cycle needs of this one."""
-    n, c = len(q), len(desired)
-    for i in range(n):
-        last[i], last[n + i] = q[i], v[i]
+    q, v, where = estimate.positions, estimate.velocities, constants.where
+    tracking = memory.tracking
+    c = len(where)
+    for i in range(len(q)):
+        memory.position[i], memory.velocity[i] = q[i], v[i]
     for i in range(c):
         at = where[i]
-        last[2 * n + i] = desired[i]
-        tracking[i] = nominal_q[i] - q[at]
-        tracking[c + i] = nominal_v[i] - v[at]
-        tracking[2 * c + i] = s[i]
+        memory.desired[i] = desired.accelerations[i]
+        tracking[i] = desired.positions[i] - q[at]
+        tracking[c + i] = desired.velocities[i] - v[at]
+        tracking[2 * c + i] = desired.combined_error[i]
 
 
 @helper
-def watch(memory: MutableVector, guards: int, r: Vector) -> None:
-    """Precursor observer and guard; ``memory``: the factor of A, then that of the observer."""
-    index = observe(memory[1:], r)
-    if guards:
-        memory[0] = guarded(memory[0], index)
-
-
-@helper
-def nothing_tuned(
-    constants: Vector,
-    memory: MutableVector,
+def tuning_cycle(
+    update: Update,
+    regressor: Regressor,
+    constants: TunerConstants,
+    memory: TunerMemory,
+    work: TunerWork,
+    phase: int,
     dt: float,
-    values: MutableVector,
-    Y: Vector,
-    error: Vector,
-    tracking: Vector,
-    h: Vector,
-    r: Vector,
+    estimate: Estimated,
+    desired: Wanted,
+    command: Commanded,
+    out: TuningRow,
 ) -> None:
-    """In the place of a tuning law where there is none."""
+    """All of the stage: observer and guard, the law, what is kept, and what is published."""
+    if phase != FIRST:
+        index = observe(memory.observer, command.accelerations)
+        if constants.guards:
+            memory.factor[0] = guarded(memory.factor[0], index)
+    if phase == TUNING_NOW:
+        tune(update, regressor, constants, memory, work, dt, estimate, desired, command)
+    remember(constants, memory, estimate, desired)
+    size, signals, values = len(memory.values), constants.signals, out.values
+    for i in range(size):
+        values[i] = memory.values[i]
+    for i in range(signals):
+        values[size + i] = memory.law[i]
+    values[size + signals] = memory.observer[0]
+    values[size + signals + 1] = memory.factor[0]
+
+
+@helper
+def phase_of(first: bool, before: float, tune_from: float) -> int:
+    """The tuner's phase; ``before``: time of the cycle before [s]."""
+    if first:
+        return FIRST
+    return TUNING_NOW if before >= tune_from else WATCHING
 
 
 @helper
@@ -133,22 +183,19 @@ def no_regressor(q: Vector, v: Vector, w: Vector, a: Vector, out: MutableVector)
     """In the place of a regressor where none is needed."""
 
 
-OBSERVER_ONLY = TuningLaw((), lambda values: (), nothing_tuned, tunes="")
-
-
 class ParameterTuner(Stage):
     """Identification of the model's coefficients, tuning of the gain or of the weights.
 
     The response to r_{k-1} is seen in cycle k; together with what is kept of cycle k-1 and its
     command it gives the rate, and what is tuned steps over the time between (explicit Euler).
-    The precursor observer runs beside every law.
-
-    State: what is tuned, the law's memory, what is kept of the latest cycle (see :func:`tune`),
-    the factor of the gain, the observer's memory.
+    The precursor observer runs beside every law. State: :class:`TunerMemory`.
     """
 
     name = "parameter_tuner"
     output = TUNING
+    memory: TunerMemory
+    constants: TunerConstants
+    published: Names = ()
 
     @classmethod
     def parameters(cls, given: Values) -> tuple[Parameter, ...]:
@@ -156,7 +203,7 @@ class ParameterTuner(Stage):
         method = str(given.get("method", NONE))
         if method == NONE:
             return PARAMETERS
-        law = registry.tuning_law(method)
+        law = TUNING_LAWS[method]
         model = model_parameters(given, live=False) if law.tunes == COEFFICIENTS else ()
         return (*PARAMETERS, TUNE_FROM, *law.parameters, *model)
 
@@ -174,55 +221,79 @@ class ParameterTuner(Stage):
         return in_the_loop(self.values)
 
     def _prepare(self) -> None:
-        values = self.values
-        self.law = OBSERVER_ONLY
-        self.guards = flag(values, "precursor_guard")
-        self.tune_from = 0.0
-        self.regressor: Callable[..., None] = no_regressor
+        values, method = self.values, word(self.values, "method")
+        self.law = TUNING_LAWS[method]
+        self.regressor: Regressor = no_regressor
+        self._start: list[float] = []
         self._coefficients: Names = ()
-        self.published: Names = ()
-        self.controlled: Names = ()
         self.rows = 0
-        if word(values, "method") != NONE:
-            self.law = registry.tuning_law(word(values, "method"))
-            self.tune_from = number(values, "tune_from")
-        self.constants = list(self.law.prepare(values))
         if self.law.tunes == COEFFICIENTS:
-            self._model = model = registry.model(word(values, "model"))
+            model, coefficients = model_of(values)
             if model.regressor is None:
                 raise BadInput(
-                    f"{self.name}.method: {word(values, 'method')} tunes models that are linear in "
+                    f"{self.name}.method: {method} tunes models that are linear in "
                     f"their coefficients, {word(values, 'model')} is not declared so"
                 )
             self.regressor, self.rows = model.regressor, model.rows
             self._coefficients = model.coefficient_names
+            self._start = coefficients[: len(self._coefficients)]
+        joints = tuple(words(values, "joints"))
+        controlled = tuple(words(values, CONTROLLED.name))
+        if self.published:
+            self.begin(self._joints, self._controlled)
+            return
+        self._estimated = Entrance(f"{self.name}, state_estimate", joints)
+        self._commanded = Entrance(f"{self.name}, command", joints)
+        self._desired = Entrance(f"{self.name}, desired", controlled, partial=True)
+        self.entrances = {
+            STATE_ESTIMATE.name: self._estimated,
+            COMMAND.name: self._commanded,
+            DESIRED.name: self._desired,
+        }
+        if self.active and joints and (controlled or not self.law.desired):
+            self.begin(joints, controlled)
 
     def begin(self, names: Names, controlled: Names) -> None:
         """Size the state for these coordinates, the controlled ones where the law needs them."""
         n, law = len(names), self.law
-        self.controlled = controlled if law.desired else ()
-        self.where = indices(self.controlled, names, f"{self.name}.method")
-        c = len(self.controlled)
+        self._joints, self._controlled = names, controlled if law.desired else ()
+        where = indices(self._controlled, names, f"{self.name}.method")
+        c = len(self._controlled)
         if law.tunes == COEFFICIENTS:
-            parameters = group(self.values, "approximate", self._model.parameters)
-            start = list(self._model.coefficients(parameters))[: len(self._coefficients)]
-            self.tuned: Names = self._coefficients
+            start, tuned = self._start, self._coefficients
         elif law.tunes == GAIN:
-            start, self.tuned = [law.start], (GAIN,)
+            start, tuned = [law.start], (GAIN,)
         else:
-            weights = self.controlled if law.tunes else ()
-            start, self.tuned = [law.start] * len(weights), tuple(WEIGHT + x for x in weights)
-        self.published = (*self.tuned, *law.signals, PRECURSOR, FACTOR)
-        memory = law.memory(self.constants, len(start), self.rows, n)
-        *cuts, size = accumulate((len(start), memory, 2 * n + c, 3 * c, 1 + memory_size(n)))
-        self._cuts = tuple(cuts)
-        if not self.state:
-            self.state.extend(start + [0.0] * (size - len(start)))
-            self.parts()[4][0] = 1.0
-
-    def parts(self) -> tuple[MutableVector, ...]:
-        """The state: tuned values, the law's memory, last cycle, tracking, observer."""
-        return self._divide(*self._cuts)
+            weights = self._controlled if law.tunes else ()
+            start, tuned = [law.start] * len(weights), tuple(WEIGHT + x for x in weights)
+        self.published = (*tuned, *law.signals, PRECURSOR, FACTOR)
+        constants = list(law.prepare(self.values))
+        self.constants = TunerConstants(
+            law=constants,
+            where=where,
+            reference=int(law.reference),
+            guards=int(flag(self.values, "precursor_guard")),
+            signals=len(law.signals),
+            tune_from=number(self.values, "tune_from") if law.tunes else 0.0,
+        )
+        layout = Layout(
+            TunerMemory,
+            values=len(start),
+            law=law.memory(constants, len(start), self.rows, n),
+            position=n,
+            velocity=n,
+            desired=c,
+            tracking=3 * c,
+            factor=1,
+            observer=memory_size(n),
+        )
+        self.memory, fresh = self._remember(layout)
+        if fresh:
+            self.memory.factor[0] = 1.0
+            for i, x in enumerate(start):
+                self.memory.values[i] = x
+        Y = [0.0] * (self.rows * len(start))
+        self.work = TunerWork([0.0] * n, [0.0] * n, Y, [0.0] * self.rows, [0.0] * c)
 
     def step(self, estimate: StateEstimate, *rest: "Desired | Command | None") -> Tuning:
         """What is tuned in cycle k; the initial values in the first cycle, without a command.
@@ -230,45 +301,36 @@ class ParameterTuner(Stage):
         ``rest``: the desired response of the cycle where the law needs it, and the command of the
         cycle before.
         """
-        stamp, names, q, v, response, _ = estimate
-        command = rest[-1]
-        desired = rest[0] if self.law.desired else None
+        estimate = self._estimated.take(estimate)
+        desired, command = NO_DESIRED, rest[-1]
+        if self.law.desired:
+            assert isinstance(rest[0], Desired)
+            desired = self._desired.take(rest[0])
         assert command is None or isinstance(command, Command)
-        assert desired is None or isinstance(desired, Desired)
+        names = estimate.names
         first, latest = self.clock
-        before = (latest - first) / SECOND
-        _, dt = self._advance_clock(stamp)
+        _, dt = self._advance_clock(estimate.stamp)
         if not self.published:
-            self.begin(names, desired.names if desired is not None else ())
-        values, memory, last, tracking, observer = self.parts()
-        n, c = len(names), len(self.controlled)
-        wanted = desired.accelerations if desired is not None else ()
-        if command is not None:
-            watch(observer, int(self.guards), command.accelerations)
-            if before >= self.tune_from:
-                work = [0.0] * n, [0.0] * n, [0.0] * (self.rows * len(values)), [0.0] * self.rows
-                tune(
-                    self.law.update,
-                    self.regressor,
-                    int(self.law.reference),
-                    self.constants,
-                    self.where,
-                    dt,
-                    values,
-                    memory,
-                    last,
-                    tracking,
-                    response,
-                    wanted,
-                    command.effort,
-                    command.accelerations,
-                    *work,
-                    [0.0] * c,
-                )
-        if desired is not None:
-            nominal = desired.positions, desired.velocities
-            remember(self.where, last, tracking, q, v, *nominal, wanted, desired.combined_error)
-        else:
-            remember(self.where, last, tracking, q, v, (), (), (), ())
-        signals = memory[: len(self.law.signals)]
-        return Tuning(stamp, self.published, [*values, *signals, observer[1], observer[0]])
+            self.begin(names, desired.names)
+        constants = self.constants
+        before = (latest - first) / SECOND
+        phase = phase_of(command is None, before, constants.tune_from)
+        out = TuningRow([0.0] * len(self.published))
+        tuning_cycle(
+            self.law.update,
+            self.regressor,
+            constants,
+            self.memory,
+            self.work,
+            phase,
+            dt,
+            estimate,
+            desired,
+            NO_COMMAND if command is None else self._commanded.take(command),
+            out,
+        )
+        return Tuning(estimate.stamp, self.published, out.values)
+
+
+NO_COMMAND = Command(-1, (), (), ())
+"""In the place of the command before the first one, at which nobody looks."""

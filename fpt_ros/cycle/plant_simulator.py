@@ -1,13 +1,25 @@
 """Stage 1 and 6 of the cycle: the plant shows its state, and answers the force."""
 
 import math
-from array import array
-from collections.abc import Callable
 
-from fpt_ros import registry
+from fpt_ros.cycle.joints import Entrance
+from fpt_ros.cycle.motion import (
+    Fault,
+    PlantConstants,
+    PlantMemory,
+    PlantWork,
+    Step,
+    by_itself,
+    explicit_euler,
+    measure,
+)
+from fpt_ros.cycle.noise import Noise
+from fpt_ros.cycle.records import Layout
+from fpt_ros.cycle.rows import JointStatesRow
 from fpt_ros.cycle.stage import REALTIME, Input, Stage
+from fpt_ros.disturbances import DISTURBANCES
 from fpt_ros.errors import BadInput, Diverged
-from fpt_ros.laws import MutableVector, Vector, helper
+from fpt_ros.laws import Vector
 from fpt_ros.messages.frames import SECOND, Command, JointStates, Names
 from fpt_ros.messages.topics import COMMAND, JOINT_STATES
 from fpt_ros.parameters import (
@@ -20,6 +32,7 @@ from fpt_ros.parameters import (
     prefixed,
     word,
 )
+from fpt_ros.plants import PLANTS, made
 
 STRUCTURE = (
     Parameter("plant", "exact dynamics, by its registered name", kind="str", live=False),
@@ -52,112 +65,20 @@ STRUCTURE = (
     Parameter("await_recorder", "do not outrun the recorder", False, live=False),
 )
 
-GOOD, EFFORT, RESPONSE, POSITION = 0, 1, 2, 3
-"""What :func:`integrate` found wrong; times ``CODE``, plus the coordinate."""
-
-CODE = 1024
-
 LOST = "control is lost: fpt gain shows which fpt_deformer.A converges, and of which sign"
 """The remedy where nothing better is known."""
 
 
-@helper
-def measure(
-    state: Vector,
-    sigma_q: float,
-    sigma_v: float,
-    table: Vector,
-    cycle: int,
-    all_measured: int,
-    past: MutableVector,
-    out_q: MutableVector,
-    out_v: MutableVector,
-) -> None:
-    """Position and velocity with the noise of ``cycle``: unit normal numbers times sigma.
-
-    The velocity is NaN where it is not measured. ``past`` is a ring of motions, 2 n numbers each,
-    for sensors that are late, or empty.
-    """
-    n = len(out_q)
-    at = 2 * n * cycle
-    length = len(past)
-    now = at % length if length > 0 else 0
-    then = (at + 2 * n) % length if length > 0 else 0
-    for i in range(n):
-        out_q[i], out_v[i] = state[i], state[n + i]
-        if length > 0:
-            past[now + i], past[now + n + i] = state[i], state[n + i]
-            out_q[i], out_v[i] = past[then + i], past[then + n + i]
-        if len(table) > 0:
-            out_q[i] += sigma_q * table[at + i]
-            out_v[i] += sigma_v * table[at + n + i]
-        if not all_measured:
-            out_v[i] = math.nan
-
-
-@helper
-def integrate(
-    response: Callable[..., None],
-    force: Callable[..., float],
-    coefficients: Vector,
-    disturbance: Vector,
-    friction: MutableVector,
-    hit: int,
-    order: int,
-    substeps: int,
-    h: float,
-    t: float,
-    acceleration_limit: float,
-    position_limit: Vector,
-    effort: Vector,
-    state: MutableVector,
-    acting: MutableVector,
-    q: MutableVector,
-    v: MutableVector,
-    a: MutableVector,
-) -> int:
-    """Explicit Euler steps of h [s] with the effort held; 0, or what is wrong (``CODE``).
-
-    ``state``: q, v and the effort that acted last; it stays as it is where something is wrong.
-    ``friction`` is the state of the disturbance. acting, q, v, a: work vectors.
-    """
-    n = len(q)
-    for i in range(n):
-        q[i], v[i] = state[i], state[n + i]
-        if not math.isfinite(effort[i]):
-            return EFFORT * CODE + i
-    for step in range(substeps):
-        for i in range(n):
-            acting[i] = effort[i]
-        acting[hit] += force(disturbance, friction, t + step * h, h, q[hit], v[hit])
-        response(coefficients, q, v, acting, a)
-        for i in range(n):
-            if not abs(a[i]) <= acceleration_limit:
-                return RESPONSE * CODE + i
-            if order == 2:
-                q[i] += h * v[i]
-                v[i] += h * a[i]
-            elif order == 1:
-                q[i] += h * a[i]
-                v[i] = a[i]
-            else:
-                q[i] = a[i]
-            if not abs(q[i]) <= position_limit[i]:
-                return POSITION * CODE + i
-    for i in range(n):
-        state[i], state[n + i], state[2 * n + i] = q[i], v[i], effort[i]
-    return GOOD
-
-
 class PlantSimulator(Stage):
-    """The exact plant, integrated by explicit Euler with the force held over the cycle.
+    """The exact plant, with the force held over the cycle. State: :class:`PlantMemory`.
 
-    State: q, v and the effort that acted last, n each; that of the disturbance; with late sensors
-    the motions of the last cycles.
+    A plant that gives its response is integrated by explicit Euler; others integrate themselves.
     """
 
     name = "plant_simulator"
     output = JOINT_STATES
+    memory: PlantMemory
+    constants: PlantConstants
 
     @classmethod
     def parameters(cls, given: Values) -> tuple[Parameter, ...]:
@@ -168,8 +89,8 @@ class PlantSimulator(Stage):
         kind = str(given.get("disturbance.kind", "none"))
         return (
             *STRUCTURE,
-            *prefixed("disturbance", registry.disturbance(kind).parameters),
-            *prefixed("exact", registry.plant(plant).parameters),
+            *prefixed("disturbance", DISTURBANCES[kind].parameters),
+            *prefixed("exact", PLANTS[plant].parameters),
         )
 
     @property
@@ -179,7 +100,7 @@ class PlantSimulator(Stage):
 
     def _prepare(self) -> None:
         values = self.values
-        self.plant = plant = registry.plant(word(values, "plant"))
+        self.plant = plant = made(PLANTS[word(values, "plant")], values, "exact")
         n = len(plant.coordinates)
         self.coefficients = list(plant.coefficients(group(values, "exact", plant.parameters)))
         self.dt = number(values, "dt")
@@ -189,30 +110,75 @@ class PlantSimulator(Stage):
         self.cycles = round(number(values, "duration") / self.dt)
         if self.cycles < 1:
             raise BadInput(f"{self.name}.duration is shorter than one cycle of {self.dt:g} s")
-        self.substeps = integer(values, "substeps")
-        self.step_time = self.dt / self.substeps
-        self.disturbance = registry.disturbance(word(values, "disturbance.kind"))
-        seed = integer(values, "seed")
-        self.disturbance_constants = list(self.disturbance.prepare(values, seed, self.cycles))
+        substeps, seed = integer(values, "substeps"), integer(values, "seed")
+        self.disturbance = DISTURBANCES[word(values, "disturbance.kind")]
         where = word(values, "disturbance.coordinate") or plant.coordinates[0]
-        self.hit = self._position_of(where, "disturbance.coordinate")
-        self.acceleration_limit = number(values, "limit.acceleration")
-        self.position_limit = self._vector("limit.position", n, math.inf)
-        self.sigma = number(values, "noise.position"), number(values, "noise.velocity")
-        self.all_measured = word(values, "measured") == "all"
-        self._table: Vector | None = None
+        late = integer(values, "measurement_delay")
+        self.constants = PlantConstants(
+            coefficients=self.coefficients,
+            disturbance=list(self.disturbance.prepare(values, seed, self.cycles)),
+            position_limit=self._vector("limit.position", n, math.inf),
+            acceleration_limit=number(values, "limit.acceleration"),
+            sigma_q=number(values, "noise.position"),
+            sigma_v=number(values, "noise.velocity"),
+            h=self.dt / substeps,
+            substeps=substeps,
+            order=plant.order,
+            disturbed=self._position_of(where, "disturbance.coordinate"),
+            velocity_measured=int(word(values, "measured") == "all"),
+            late=late,
+        )
         self.timeout = round(number(values, "command_timeout") * SECOND)
-        if not self.state:
-            start = self._vector("initial_position", n, 0.0)
-            start += self._vector("initial_velocity", n, 0.0)
-            self.state.extend(start + [0.0] * (n + self.disturbance.state))
-            late = integer(values, "measurement_delay")
-            self.state.extend(start * (late + 1) if late else [])
+        self.law = self._law()
+        self.noise = Noise(seed, 2 * n)
+        self._commanded = Entrance(f"{self.name}, command", plant.coordinates)
+        self.entrances = {COMMAND.name: self._commanded}
+        layout = Layout(
+            PlantMemory,
+            position=n,
+            velocity=n,
+            effort=n,
+            disturbance=self.disturbance.state,
+            own=plant.state,
+            past=(late + 1 if late else 0, 2 * n),
+        )
+        self.memory, fresh = self._remember(layout)
+        q, v, acting, external, response = ([0.0] * n for _ in range(5))
+        self.work = PlantWork(q, v, acting, external, response, [0.0])
+        if fresh:
+            self._start(n, late)
+
+    def _start(self, n: int, late: int) -> None:
+        """The initial motion, in the past as well."""
+        memory = self.memory
+        start = self._vector("initial_position", n, 0.0)
+        start += self._vector("initial_velocity", n, 0.0)
+        for i in range(n):
+            memory.position[i], memory.velocity[i] = start[i], start[n + i]
+        for turn in range(late + 1 if late else 0):
+            for i, x in enumerate(start):
+                memory.past[turn, i] = x
+        if self.plant.start is not None:
+            self.plant.start(self.coefficients, memory.own, start[:n], start[n:])
+
+    def _law(self) -> Step:
+        """The plant's motion over one cycle, as a law."""
+        if self.plant.advance is not None:
+            return by_itself(self.plant.advance, self.disturbance.force)
+        if self.plant.response is None:
+            name = word(self.values, "plant")
+            raise BadInput(f"{self.name}.plant: {name} has neither a response nor advance")
+        return explicit_euler(self.plant.response, self.disturbance.force)
 
     @property
     def coordinates(self) -> Names:
         """Names of the coordinates."""
         return self.plant.coordinates
+
+    @property
+    def noisy(self) -> bool:
+        """Whether the measurements have noise."""
+        return (self.constants.sigma_q, self.constants.sigma_v) != (0.0, 0.0)
 
     def _position_of(self, coordinate: str, parameter: str) -> int:
         names = self.plant.coordinates
@@ -229,34 +195,13 @@ class PlantSimulator(Stage):
             raise BadInput(f"{self.name}.{name}: {len(given)} numbers given, {n} needed ({names})")
         return given or [default] * n
 
-    def memory(self) -> tuple[MutableVector, ...]:
-        """The state in its parts: of the plant, of the disturbance, and the motions of the past."""
-        split = 3 * len(self.coordinates)
-        return self._divide(split, split + self.disturbance.state)
-
-    def noise(self) -> Vector:
-        """Unit normal numbers: for each cycle n for the positions, then n for the velocities.
-
-        Empty without noise.
-        """
-        if self._table is None:
-            if self.sigma == (0.0, 0.0):
-                return ()
-            import numpy as np
-
-            generator = np.random.default_rng(integer(self.values, "seed"))
-            size = self.cycles * 2 * len(self.coordinates)
-            self._table = array("d", generator.standard_normal(size).tobytes())
-        return self._table
-
     def measure(self, stamp: int, cycle: int) -> JointStates:
         """Step 1: what is measured at ``stamp`` [ns], the noise of ``cycle`` added."""
         n = len(self.coordinates)
-        q, v = [0.0] * n, [0.0] * n
-        noise, everything = self.noise(), int(self.all_measured)
-        plant, _, past = self.memory()
-        measure(plant, *self.sigma, noise, cycle % self.cycles, everything, past, q, v)
-        return JointStates(stamp, self.coordinates, q, v, self.state[2 * n : 3 * n])
+        out = JointStatesRow([0.0] * n, [0.0] * n, [0.0] * n)
+        noise: Vector = self.noise.of(cycle) if self.noisy else ()
+        measure(self.constants, self.memory, cycle, noise, out)
+        return JointStates(stamp, self.coordinates, *out)
 
     def safe_command(self, stamp: int) -> Command:
         """What acts when no command is young enough."""
@@ -270,43 +215,26 @@ class PlantSimulator(Stage):
         Raises:
             Diverged: an acceleration or a position is not finite or beyond its limit.
         """
-        n, t = len(self.coordinates), stamp / SECOND
-        plant, friction, _ = self.memory()
-        acting, q, v, a = [0.0] * n, [0.0] * n, [0.0] * n, [0.0] * n
+        t, work, effort = stamp / SECOND, self.work, self._commanded.take(command).effort
         try:
-            status = integrate(
-                self.plant.response,
-                self.disturbance.force,
-                self.coefficients,
-                self.disturbance_constants,
-                friction,
-                self.hit,
-                self.plant.order,
-                self.substeps,
-                self.step_time,
-                t,
-                self.acceleration_limit,
-                self.position_limit,
-                command.effort,
-                plant,
-                acting,
-                q,
-                v,
-                a,
-            )
+            fault = self.law(self.constants, self.memory, work, t, effort)
         except (ArithmeticError, ValueError) as error:
-            remedy, cycle = self._trouble(q) or str(error), stamp // self.cycle_time
+            remedy, cycle = self._trouble(work.position) or str(error), stamp // self.cycle_time
             name = self.coordinates[0]
             raise Diverged(t, name, "response", math.nan, remedy=remedy, cycle=cycle) from error
-        if status == GOOD:
+        if fault == Fault.NONE:
             return
-        code, at = divmod(status, CODE)
+        at = int(work.place[0])
         what = {
-            EFFORT: ("effort", command.effort[at], math.inf),
-            RESPONSE: ("acceleration", a[at], self.acceleration_limit),
-            POSITION: ("position", q[at], self.position_limit[at]),
-        }[code]
-        cycle, remedy = stamp // self.cycle_time, self._trouble(q)
+            Fault.EFFORT: ("effort", effort[at], math.inf),
+            Fault.RESPONSE: (
+                "acceleration",
+                work.response[at],
+                self.constants.acceleration_limit,
+            ),
+            Fault.POSITION: ("position", work.position[at], self.constants.position_limit[at]),
+        }[Fault(fault)]
+        cycle, remedy = stamp // self.cycle_time, self._trouble(work.position)
         raise Diverged(t, self.coordinates[at], *what, remedy=remedy or LOST, cycle=cycle)
 
     def _trouble(self, q: Vector) -> str:

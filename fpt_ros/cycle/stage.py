@@ -9,12 +9,12 @@ from abc import ABC, abstractmethod
 from array import array
 from collections.abc import Sequence
 from dataclasses import dataclass
-from itertools import pairwise
-from typing import ClassVar
+from typing import Any, ClassVar
 
+from fpt_ros.cycle.joints import Entrance
+from fpt_ros.cycle.records import Layout
 from fpt_ros.errors import BadInput
-from fpt_ros.laws import MutableVector, part
-from fpt_ros.messages.frames import SECOND, Names
+from fpt_ros.messages.frames import SECOND, Frame, Names
 from fpt_ros.messages.topics import Topic
 from fpt_ros.parameters import Parameter, Values, resolve
 
@@ -23,17 +23,22 @@ REALTIME = Parameter("realtime", "on the wall clock instead of in lockstep", Fal
 
 CYCLE_TIME = Parameter(
     "cycle_time",
-    "length of a cycle in lockstep, by which messages of another run are known; 0: not known",
+    "nominal length of a cycle, the plant's dt; 0: not known, it is the first gap between messages",
     0.0,
     unit="s",
     minimum=0.0,
     live=False,
 )
-"""Declared by the stages that answer; set by what starts the graph, from the plant's ``dt``."""
+"""Of the stages that answer; derived from the plant's ``dt`` where an experiment is loaded."""
 
-
-_Divided = tuple["array[float]", tuple[int, ...], tuple[MutableVector, ...]]
-"""A state, where it is cut, and its parts."""
+JOINTS = Parameter(
+    "joints",
+    "names of the plant's coordinates, in its order; empty: as the first message has them",
+    [],
+    kind="strings",
+    live=False,
+)
+"""Derived from the plant where an experiment is loaded."""
 
 
 @dataclass(frozen=True)
@@ -55,23 +60,33 @@ class Stage(ABC):
         name: of the node that runs it, and of its section in a parameter file.
         output: the topic that it publishes.
         values: all parameters, complete and checked.
-        state: what it remembers, as doubles; sized by the first frame.
+        state: what it remembers, as doubles. Its size follows from the parameters; where these do
+            not name the joints, from the first frame. It is never assigned anew: ``memory`` is made
+            of views into it.
+        layout: of the memory on the state; ``None``: its size is not known yet.
+        entrances: by the name of an input topic, which joints it has to hold.
         clock: stamps [ns] of the first and of the latest cycle seen, -1 before.
     """
 
     name: ClassVar[str]
     output: ClassVar[Topic]
 
-    def __init__(self, given: Values) -> None:
+    def __init__(self, given: Values, state: Any = None) -> None:
         """Configure from parameters by name.
+
+        Args:
+            given: parameters; those with a default may be missing.
+            state: a buffer of doubles to remember on, as it was left (an array, mapped memory);
+                by default a new one.
 
         Raises:
             BadInput: an unknown, missing or invalid parameter.
         """
         self.values = resolve(self.parameters(given), given, self.name)
-        self.state = array("d")
+        self.state: Any = array("d") if state is None else state
+        self.layout: Layout[Any] | None = None
+        self.entrances: dict[str, Entrance] = {}
         self.clock = array("q", (-1, -1))
-        self._divided: _Divided = (self.state, (), ())
         self._prepare()
 
     @classmethod
@@ -87,6 +102,15 @@ class Stage(ABC):
     def inputs(self) -> tuple[Input, ...]:
         """Topics that each step needs, in the order of the step's arguments."""
         return ()
+
+    def admit(self, topic: Topic, frame: Frame) -> Frame:
+        """The frame of an input as the stage wants it: its joints, in its order.
+
+        Raises:
+            BadInput: a joint is absent, or the frame is not whole.
+        """
+        entrance = self.entrances.get(topic.name)
+        return frame if entrance is None else entrance.take(frame)
 
     def configure(self, changes: Values) -> None:
         """Change live parameters; what was remembered stays.
@@ -114,17 +138,13 @@ class Stage(ABC):
     def _prepare(self) -> None:
         """Work out the constants of the laws from ``values``."""
 
-    def _divide(self, *cuts: int) -> tuple[MutableVector, ...]:
-        """The state cut at these places, each part to be read and written where it stands.
-
-        Made anew only where the state is another, or cut otherwise: a state of which there are
-        parts cannot change its size.
-        """
-        state, at, parts = self._divided
-        if state is not self.state or at != cuts:
-            parts = tuple(part(self.state, a, b) for a, b in pairwise((0, *cuts, len(self.state))))
-            self._divided = self.state, cuts, parts
-        return parts
+    def _remember(self, layout: Layout[Any]) -> tuple[Any, bool]:
+        """The memory of this layout on the state, and whether it is new, all zeros."""
+        fresh = not len(self.state)
+        self.layout = layout
+        if fresh and layout.size:
+            self.state.frombytes(bytes(8 * layout.size))
+        return layout.on(self.state), fresh
 
     def _advance_clock(self, stamp: int) -> tuple[float, float]:
         """Time since the first cycle and since the latest one [s]; 0.0 and 0.0 in the first."""

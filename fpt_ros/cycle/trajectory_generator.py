@@ -1,16 +1,26 @@
 """Stage 3 of the cycle: the nominal motion, and the response that makes the error decay."""
 
 import math
-from collections.abc import Callable
+from typing import NamedTuple
 
-from fpt_ros import registry
-from fpt_ros.cycle.stage import CYCLE_TIME, REALTIME, Input, Stage, indices
-from fpt_ros.error_relaxation import RELAXATIONS, Prescription, combined_error
+from fpt_ros.cycle.joints import Entrance
+from fpt_ros.cycle.records import Layout
+from fpt_ros.cycle.rows import DesiredRow, Estimated
+from fpt_ros.cycle.stage import CYCLE_TIME, JOINTS, REALTIME, Input, Stage, indices
 from fpt_ros.errors import BadInput
-from fpt_ros.laws import MutableVector, Vector, helper
+from fpt_ros.laws import Indices, MutableVector, Vector, helper
 from fpt_ros.messages.frames import SECOND, Desired, Names, StateEstimate
 from fpt_ros.messages.topics import DESIRED, STATE_ESTIMATE
-from fpt_ros.parameters import Parameter, Values, number, numbers, word, words
+from fpt_ros.parameters import Parameter, Values, numbers, word, words
+from fpt_ros.relaxations import RELAXATIONS, Prescribe, combined_error
+from fpt_ros.trajectories import TRAJECTORIES, Nominal
+
+RELAXATION = Parameter(
+    "error_relaxation",
+    "how the tracking error is to decay, by its registered name",
+    "pid",
+    live=False,
+)
 
 PARAMETERS = (
     Parameter("trajectory", "nominal motion, by its registered name", kind="str", live=False),
@@ -18,13 +28,7 @@ PARAMETERS = (
     Parameter("amplitude", "scale of the nominal motion, per coordinate", kind="floats"),
     Parameter("frequency", "scale of its time, per coordinate", kind="floats", unit="1/s"),
     Parameter("lambda", "decay rate Lambda of the tracking error", unit="1/s", above=0.0),
-    Parameter(
-        "error_relaxation",
-        "how the tracking error is to decay",
-        "pid",
-        choices=tuple(sorted(RELAXATIONS)),
-        live=False,
-    ),
+    RELAXATION,
     Parameter(
         "time_sharing",
         "how long each coordinate is controlled, in turn; empty: all of them always",
@@ -35,7 +39,34 @@ PARAMETERS = (
     ),
     REALTIME,
     CYCLE_TIME,
+    JOINTS,
 )
+
+
+class TrajectoryConstants(NamedTuple):
+    """Constants of the motion and of the relaxation; places of the controlled coordinates; slots.
+
+    ``slots``: how long each coordinate's turn is [ns]; empty: it is always everyone's.
+    """
+
+    nominal: Vector
+    relaxation: Vector
+    where: Indices
+    slots: Vector
+
+
+class TrajectoryMemory(NamedTuple):
+    """What the motion's error has been, and the state of a motion that is integrated.
+
+    ``integral``: of the tracking errors (c); ``error``: of the latest cycle (c), which the next one
+    adds to it (forward rectangles over the time that really passed); ``turn``: whose turn the
+    latest cycle was, one number.
+    """
+
+    integral: MutableVector
+    error: MutableVector
+    turn: MutableVector
+    nominal: MutableVector
 
 
 @helper
@@ -56,65 +87,62 @@ def slot(lengths: Vector, elapsed: float) -> int:
 
 @helper
 def prescribe(
-    nominal: Callable[..., None],
-    relax: Prescription,
-    constants: Vector,
-    lam: float,
-    where: "tuple[int, ...] | list[int]",
+    nominal: Nominal,
+    relax: Prescribe,
+    constants: TrajectoryConstants,
+    memory: TrajectoryMemory,
     active: int,
-    motion: MutableVector,
-    state: MutableVector,
     t: float,
     dt: float,
-    q: Vector,
-    v: Vector,
-    out_q: MutableVector,
-    out_v: MutableVector,
-    out_response: MutableVector,
-    out_s: MutableVector,
+    estimate: Estimated,
+    out: DesiredRow,
 ) -> None:
-    """Nominal motion and desired response of the c controlled coordinates.
+    """Nominal motion and desired response of the c controlled coordinates, t [s] after the start.
 
-    ``motion`` is the state of the trajectory. ``state``: the integrals of the tracking errors (c),
-    the errors of the latest cycle (c), which the next cycle adds to them (forward rectangles over
-    the time that really passed), and whose turn the latest cycle was. A coordinate whose turn it is
-    not gets NaN as its response; where its turn begins, its integral is zero.
+    dt [s] since the latest cycle, 0 in the first. A coordinate whose turn it is not (``active``)
+    gets NaN as its response; where its turn begins, its integral is zero.
     """
-    c = len(out_q)
-    nominal(constants, motion, t, dt, out_q, out_v, out_response)
-    for i in range(c):
+    nominal(
+        constants.nominal, memory.nominal, t, dt, out.positions, out.velocities, out.accelerations
+    )
+    rate, integral, last = constants.relaxation, memory.integral, memory.error
+    q, v, q_n, v_n = estimate.positions, estimate.velocities, out.positions, out.velocities
+    response, combined = out.accelerations, out.combined_error
+    for i in range(len(q_n)):
         if active >= 0 and active != i:
-            out_response[i] = math.nan
-            out_s[i] = math.nan
+            response[i] = math.nan
+            combined[i] = math.nan
             continue
-        if active >= 0 and state[2 * c] != active:
-            state[i] = 0.0
+        if active >= 0 and memory.turn[0] != active:
+            integral[i] = 0.0
         else:
-            state[i] = state[i] + dt * state[c + i]
-        at = where[i]
-        error, error_dot = out_q[i] - q[at], out_v[i] - v[at]
-        out_s[i] = combined_error(lam, error, error_dot, state[i])
-        out_response[i] = relax(lam, out_response[i], error, error_dot, state[i])
-        state[c + i] = error
-    state[2 * c] = active
+            integral[i] = integral[i] + dt * last[i]
+        at = constants.where[i]
+        error, error_dot = q_n[i] - q[at], v_n[i] - v[at]
+        combined[i] = combined_error(rate[0], error, error_dot, integral[i])
+        response[i] = relax(rate, response[i], error, error_dot, integral[i])
+        last[i] = error
+    memory.turn[0] = active
 
 
 class TrajectoryGenerator(Stage):
-    """Kinematic prescription of the desired response.
+    """Kinematic prescription of the desired response. State: :class:`TrajectoryMemory`.
 
     ``controlled`` are the coordinates that follow the nominal motion; with ``time_sharing`` one
-    after the other. State: see :func:`prescribe`, then that of the trajectory.
+    after the other.
     """
 
     name = "trajectory_generator"
     output = DESIRED
+    memory: TrajectoryMemory
 
     @classmethod
     def parameters(cls, given: Values) -> tuple[Parameter, ...]:
-        """Those of the stage and of the trajectory."""
+        """Those of the stage, of the trajectory and of the relaxation."""
         name = given.get("trajectory")
-        own = registry.trajectory(name).parameters if isinstance(name, str) else ()
-        return (*PARAMETERS, *own)
+        own = TRAJECTORIES[name].parameters if isinstance(name, str) else ()
+        relaxation = str(given.get(RELAXATION.name, RELAXATION.default))
+        return (*PARAMETERS, *own, *RELAXATIONS[relaxation].parameters)
 
     @property
     def inputs(self) -> tuple[Input, ...]:
@@ -124,7 +152,6 @@ class TrajectoryGenerator(Stage):
     def _prepare(self) -> None:
         values = self.values
         self.controlled = tuple(words(values, "controlled"))
-        self.lam = number(values, "lambda")
         c = len(self.controlled)
         if not 0 < c == len(set(self.controlled)):
             raise BadInput(
@@ -136,55 +163,51 @@ class TrajectoryGenerator(Stage):
             if len(given) != c:
                 wanted = ", ".join(self.controlled)
                 raise BadInput(f"{self.name}.{name}: {len(given)} given, {c} needed ({wanted})")
-        self.slots = [float(round(x * SECOND)) for x in numbers(values, "time_sharing")]
-        if len(self.slots) not in (0, c):
+        slots = [float(round(x * SECOND)) for x in numbers(values, "time_sharing")]
+        if len(slots) not in (0, c):
             raise BadInput(
-                f"{self.name}.time_sharing: {len(self.slots)} given, {c} needed "
+                f"{self.name}.time_sharing: {len(slots)} given, {c} needed "
                 f"({', '.join(self.controlled)}), or none"
             )
-        self.trajectory = registry.trajectory(word(values, "trajectory"))
-        self.constants = list(self.trajectory.prepare(values, c))
-        self.relaxation = RELAXATIONS[word(values, "error_relaxation")]
+        self.trajectory = TRAJECTORIES[word(values, "trajectory")]
+        self.relaxation = RELAXATIONS[word(values, RELAXATION.name)]
+        motion = list(self.trajectory.prepare(values, c))
+        decay = list(self.relaxation.prepare(values))
+        self._entrance = Entrance(f"{self.name}, state_estimate", tuple(words(values, "joints")))
+        self.entrances = {STATE_ESTIMATE.name: self._entrance}
         self._names: Names = ()
+        self.constants = TrajectoryConstants(motion, decay, (), slots)
         self._turns = [(name,) for name in self.controlled]
-        if not self.state:
-            self.state.extend([0.0] * (2 * c) + [-1.0, *self.trajectory.state])
-
-    def memory(self) -> tuple[MutableVector, ...]:
-        """The state in its two parts: of the trajectory, and of the errors."""
-        errors, trajectory = self._divide(2 * len(self.controlled) + 1)
-        return trajectory, errors
+        layout = Layout(
+            TrajectoryMemory, integral=c, error=c, turn=1, nominal=len(self.trajectory.state)
+        )
+        self.memory, fresh = self._remember(layout)
+        if fresh:
+            self.memory.turn[0] = -1.0
+            for i, x in enumerate(self.trajectory.state):
+                self.memory.nominal[i] = x
 
     def locate(self, names: Names) -> tuple[int, ...]:
         """Where the controlled coordinates stand among ``names``."""
         return indices(self.controlled, names, f"{self.name}.controlled")
 
+    def place(self, names: Names) -> TrajectoryConstants:
+        """The constants, for estimates whose vectors are over ``names``."""
+        if names != self._names:
+            self.constants = self.constants._replace(where=self.locate(names))
+            self._names = names
+        return self.constants
+
     def step(self, estimate: StateEstimate) -> Desired:
         """Nominal motion at t_k and the desired response, for the controlled coordinates."""
-        stamp, names, q, v, _, _ = estimate
-        if names is not self._names:
-            self._where = self.locate(names)
-            self._names = names
+        estimate = self._entrance.take(estimate)
+        constants = self.place(estimate.names)
+        stamp, c = estimate.stamp, len(self.controlled)
         t, dt = self._advance_clock(stamp)
-        c = len(self.controlled)
-        out = [0.0] * c, [0.0] * c, [0.0] * c, [0.0] * c
-        motion, errors = self.memory()
-        active = slot(self.slots, float(stamp - self.clock[0]))
-        prescribe(
-            self.trajectory.nominal,
-            self.relaxation.prescribe,
-            self.constants,
-            self.lam,
-            self._where,
-            active,
-            motion,
-            errors,
-            t,
-            dt,
-            q,
-            v,
-            *out,
-        )
+        out = DesiredRow([0.0] * c, [0.0] * c, [0.0] * c, [0.0] * c)
+        active = slot(constants.slots, float(stamp - self.clock[0]))
+        nominal, relax = self.trajectory.nominal, self.relaxation.prescribe
+        prescribe(nominal, relax, constants, self.memory, active, t, dt, estimate, out)
         if active < 0:
             return Desired(stamp, self.controlled, *out)
         return Desired(stamp, self._turns[active], *[[vector[active]] for vector in out])

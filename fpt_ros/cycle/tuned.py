@@ -1,9 +1,9 @@
 """What a ``tuning`` message changes in the deformer: told by the names that it carries."""
 
-from dataclasses import dataclass
+from typing import NamedTuple
 
-from fpt_ros.laws import MutableVector, Vector, helper
 from fpt_ros.messages.frames import Names
+from fpt_ros.parameters import Parameter
 from fpt_ros.tuning import GAIN
 
 WEIGHT = "weight."
@@ -17,67 +17,40 @@ PRECURSOR = "precursor"
 
 NO_VALUES, A_COEFFICIENT, A_GAIN, A_WEIGHT = 0, 1, 2, 3
 
-
-@helper
-def apply_tuning(
-    kind: int,
-    first: int,
-    size: int,
-    factor: int,
-    tuning: Vector,
-    gain: float,
-    constants: MutableVector,
-    coefficients: MutableVector,
-    weights: MutableVector,
-) -> None:
-    """Put ``size`` tuned values, the first at ``first``, and the gain's factor into force."""
-    a = gain
-    for i in range(size):
-        value = tuning[first + i]
-        if kind == A_COEFFICIENT:
-            coefficients[i] = value
-        elif kind == A_WEIGHT:
-            weights[i] = value
-        else:
-            a = value
-    if factor >= 0:
-        a = a * tuning[factor]
-    constants[0] = a
+CONTROLLED = Parameter(
+    "controlled",
+    "coordinates that the trajectory generator controls, in its order; empty: as its first message",
+    [],
+    kind="strings",
+    live=False,
+)
+"""Known to deformer and tuner; derived where an experiment is loaded."""
 
 
-@dataclass(frozen=True)
-class Tuned:
-    """Where the values stand in a message: see :func:`apply_tuning`."""
+class TunedPlaces(NamedTuple):
+    """Where the values stand in a message: ``size`` of them from ``first`` on.
+
+    ``kind``: coefficients of the model, the gain A, or weights; ``factor``: place of the gain's
+    factor, -1 where there is none.
+    """
 
     kind: int = NO_VALUES
     first: int = 0
     size: int = 0
     factor: int = -1
 
-    def apply(
-        self,
-        tuning: Vector,
-        gain: float,
-        constants: MutableVector,
-        coefficients: MutableVector,
-        weights: MutableVector,
-    ) -> None:
-        """Put a message's values into force; ``gain`` is A as it is without a tuner."""
-        where = self.kind, self.first, self.size, self.factor
-        apply_tuning(*where, tuning, gain, constants, coefficients, weights)
+
+NOTHING = TunedPlaces()
 
 
-NOTHING = Tuned()
-
-
-def tuned_by(names: Names, coefficients: Names) -> Tuned:
+def tuned_by(names: Names, coefficients: Names) -> TunedPlaces:
     """What a message with these names changes, for a model with these coefficients."""
     factor = names.index(FACTOR) if FACTOR in names else -1
     if coefficients and names[: len(coefficients)] == coefficients:
-        return Tuned(A_COEFFICIENT, 0, len(coefficients), factor)
+        return TunedPlaces(A_COEFFICIENT, 0, len(coefficients), factor)
     if GAIN in names:
-        return Tuned(A_GAIN, names.index(GAIN), 1, factor)
+        return TunedPlaces(A_GAIN, names.index(GAIN), 1, factor)
     weights = [i for i, name in enumerate(names) if name.startswith(WEIGHT)]
     if weights:
-        return Tuned(A_WEIGHT, weights[0], len(weights), factor)
-    return Tuned(factor=factor)
+        return TunedPlaces(A_WEIGHT, weights[0], len(weights), factor)
+    return TunedPlaces(factor=factor)

@@ -5,8 +5,10 @@ from dataclasses import dataclass
 
 from fpt_ros.laws import MutableVector, Vector
 from fpt_ros.parameters import Parameter, Values, number
+from fpt_ros.registry import Kind
 
-FORCE = "vvfffff"
+Force = Callable[[Vector, MutableVector, float, float, float, float], float]
+"""(constants, state, t, h, q, v) -> force"""
 
 
 @dataclass(frozen=True)
@@ -24,7 +26,7 @@ class Disturbance:
     """
 
     prepare: Callable[[Values, int, int], tuple[float, ...]]
-    force: Callable[[Vector, MutableVector, float, float, float, float], float]
+    force: Force
     parameters: tuple[Parameter, ...] = ()
     state: int = 0
 
@@ -39,3 +41,5 @@ def _none(constants: Vector, state: MutableVector, t: float, h: float, q: float,
 
 
 NONE = Disturbance(scales, _none)
+
+DISTURBANCES: Kind[Disturbance] = Kind(Disturbance, "disturbances")

@@ -2,7 +2,7 @@
 
     y(t) = a sin(w t) + z_k,   z_k uniform in [-noise, noise), one number per cycle
 
-The numbers are drawn at once, with the seed of the run.
+The numbers are drawn at once, with the seed of the run; after ``MOST`` cycles they come again.
 """
 
 import math
@@ -10,6 +10,9 @@ import math
 from fpt_ros.disturbances import Disturbance, scales
 from fpt_ros.laws import MutableVector, Vector
 from fpt_ros.parameters import Parameter, Values, number
+
+MOST = 1_000_000
+"""Numbers that are drawn at most: a run of any length has the same memory."""
 
 PARAMETERS = (Parameter("noise", "half width of the uniform noise", 0.15, minimum=0.0),)
 
@@ -19,7 +22,7 @@ def prepare(values: Values, seed: int, cycles: int) -> tuple[float, ...]:
     import numpy as np
 
     half = number(values, "disturbance.noise")
-    noise = np.random.default_rng(seed).uniform(-half, half, cycles).tolist()
+    noise = np.random.default_rng(seed).uniform(-half, half, min(cycles, MOST)).tolist()
     return (*scales(values, seed, cycles), 1.0 / number(values, "dt"), *noise)
 
 

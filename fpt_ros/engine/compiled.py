@@ -2,7 +2,7 @@
 
 A law is compiled for the signature of its kind and called through a pointer, so that the loop
 itself is compiled once for all laws, and a user's own law costs one small compilation. For long
-runs the laws are built into a loop of their own, twice as fast: the code that is there is linked
+runs the laws are built into a specialised loop, twice as fast: the code that is there is linked
 and optimised once more, which takes seconds, and gives the same bits. The machine code is kept in
 the user's cache; the folder's name tells the sources it was made of.
 """
@@ -19,20 +19,25 @@ from types import FunctionType
 from typing import Any, cast
 
 from fpt_ros import laws
+from fpt_ros.engine.types import arguments_of, signature_of, type_of
 
 _PACKAGE = Path(__file__).parents[1]
 
 _SOURCES = (
     "*.py",
     "cycle/*.py",
+    "engine/*.py",
+    "messages/frames.py",
     "plants/*.py",
     "trajectories/*.py",
+    "relaxations/*.py",
     "disturbances/*.py",
     "transformations/*.py",
     "tuning/*.py",
+    "compensators/*.py",
     "denoising/streaming/*.py",
 )
-"""What the code of this package is made of; a user's own laws are checked by numba itself."""
+"""What the code of this package is made of; a user's own laws are checked one by one."""
 
 STALE = 7 * 24 * 3600.0
 """Seconds after which the code of older sources is removed."""
@@ -75,85 +80,95 @@ OPTIONS = {"error_model": "numpy", "_nrt": False, "forceinline": True}
 """Division by zero gives inf or NaN; no reference counts, as nothing is allocated; what is called
 directly is built in."""
 
-Signatures = tuple[str, ...]
-
 Laws = tuple[Callable[..., Any], ...]
 
 _registered: set[Callable[..., Any]] = set()
 
 
-def _register_helpers() -> None:
-    """Make the functions that laws call known to numba; laws loaded meanwhile bring new ones."""
+def _register(function: Callable[..., Any]) -> None:
+    """Make a function known to numba that others call."""
     from numba.extending import register_jitable
 
-    for function in laws.HELPERS:
-        if function not in _registered:
-            register_jitable(**OPTIONS)(function)
-            _registered.add(function)
-
-
-def type_of(signature: str) -> Any:
-    """Numba's type of a function with this signature (see :mod:`fpt_ros.laws`)."""
-    numba = _numba()
-    kinds = {
-        "v": numba.float64[::1],
-        "f": numba.float64,
-        "i": numba.int64,
-        "w": numba.int64[::1],
-        "m": numba.float64[:, ::1],
-        "-": numba.void,
-    }
-    return kinds[signature[-1]](*[kinds[kind] for kind in signature[:-1]])
+    if function not in _registered:
+        register_jitable(**OPTIONS)(function)
+        _registered.add(function)
 
 
 def _machine_code(function: Callable[..., Any], signature: Any) -> Any:
-    _register_helpers()
+    for helper in laws.HELPERS:  # laws loaded meanwhile bring new ones
+        _register(helper)
     return _numba().njit(signature, cache=True, **OPTIONS)(function)
 
 
 @cache
-def law(function: Callable[..., Any], signature: str) -> Any:
-    """A law as machine code, to be given to a compiled loop."""
-    return _machine_code(function, type_of(signature))
+def law(function: Any, kind: Any) -> Any:
+    """A law of a kind as machine code, to be given to a compiled loop."""
+    if function.__closure__:
+        function = _told_apart(function)
+    return _machine_code(function, signature_of(kind))
+
+
+def _told_apart(function: FunctionType) -> FunctionType:
+    """A copy of a function made by another one, its name telling what it encloses.
+
+    Numba's cache knows a function by its file, name and code, and not by what it calls.
+    """
+    for cell in function.__closure__ or ():
+        if isinstance(cell.cell_contents, FunctionType):
+            _register(cell.cell_contents)
+    copy = FunctionType(
+        function.__code__,
+        function.__globals__,
+        function.__name__,
+        function.__defaults__,
+        function.__closure__,
+    )
+    copy.__qualname__ = f"{function.__name__}_{_digest(_identity(function))}"
+    copy.__module__ = function.__module__
+    return copy
 
 
 @cache
-def _loop(function: Callable[..., Any], signatures: Signatures, arguments: str) -> Any:
-    kinds = [_numba().types.FunctionType(type_of(signature)) for signature in signatures]
-    rest = type_of(arguments)
-    return _machine_code(function, rest.return_type(*kinds, *rest.args))
+def _loop(function: Callable[..., Any]) -> Any:
+    law_kinds, rest, result = arguments_of(function)
+    kinds = [*law_kinds.values(), *rest.values()]
+    return _machine_code(function, type_of(result)(*map(type_of, kinds)))
 
 
-def loop(
-    function: Callable[..., Any], chosen: Laws, signatures: Signatures, arguments: str
-) -> Callable[..., Any]:
+def _compiled_laws(function: Callable[..., Any], chosen: Laws) -> list[Any]:
+    kinds = arguments_of(function)[0].values()
+    return [law(each, kind) for each, kind in zip(chosen, kinds, strict=True)]
+
+
+def loop(function: Callable[..., Any], chosen: Laws) -> Callable[..., Any]:
     """A loop whose first arguments are laws, with these laws: called through pointers."""
-    return partial(_loop(function, signatures, arguments), *map(law, chosen, signatures))
+    return partial(_loop(function), *_compiled_laws(function, chosen))
 
 
 @cache
-def loop_of_its_own(
-    function: Callable[..., Any], chosen: Laws, signatures: Signatures, arguments: str
-) -> Callable[..., Any]:
+def specialised_loop(function: Callable[..., Any], chosen: Laws) -> Callable[..., Any]:
     """The same as :func:`loop`, with the laws built in.
 
     It is a function that calls the loop with them: inlined there, the pointers are constants, and
     what they point at is inlined as well. Nothing is typed or lowered again, which is what numba
     spends most of its time on. Made of text, as ``*rest`` costs numba half as much again.
     """
-    rest = ", ".join(f"x{i}" for i in range(len(arguments) - 1))
-    pointers = ", ".join(f"law{i}" for i in range(len(chosen)))
+    _, others, result = arguments_of(function)
+    rest, pointers = ", ".join(others), ", ".join(f"law{i}" for i in range(len(chosen)))
     text = f"def built_in({rest}):\n    return loop({pointers}, {rest})"
-    scope = {f"law{i}": law(each, signatures[i]) for i, each in enumerate(chosen)}
-    scope |= {"loop": _loop(function, signatures, arguments), "__name__": __name__}
+    scope = {f"law{i}": each for i, each in enumerate(_compiled_laws(function, chosen))}
+    scope |= {"loop": _loop(function), "__name__": __name__}
     exec(compile(text, __file__, "exec"), scope)
-    # numba's cache knows a function by its file, name and code, and not by what it calls
     parts = cache_directory().name, *map(_identity, (function, *chosen))
-    digest = hashlib.sha256(repr(parts).encode()).hexdigest()[:16]
-    scope["built_in"].__qualname__ = f"built_in_{digest}"
+    scope["built_in"].__qualname__ = f"built_in_{_digest(parts)}"
+    signature = type_of(result)(*map(type_of, others.values()))
     with warnings.catch_warnings():
         warnings.filterwarnings("ignore", "First-class function type")
-        return cast(Callable[..., Any], _machine_code(scope["built_in"], type_of(arguments)))
+        return cast(Callable[..., Any], _machine_code(scope["built_in"], signature))
+
+
+def _digest(identity: Any) -> str:
+    return hashlib.sha256(repr(identity).encode()).hexdigest()[:16]
 
 
 def _identity(thing: Any) -> Any:

@@ -1,15 +1,11 @@
 """Whether the stages of a loop fit each other."""
 
-from typing import TYPE_CHECKING
-
-from fpt_ros.error_relaxation import RELAXATIONS
+from fpt_ros.cycle.stages import Loop
 from fpt_ros.errors import BadInput
 from fpt_ros.experiments.workspace import check_workspace
 from fpt_ros.parameters import word
+from fpt_ros.relaxations import RELAXATIONS
 from fpt_ros.tuning import COEFFICIENTS
-
-if TYPE_CHECKING:
-    from fpt_ros.experiments.experiment import Loop
 
 MOTIONS = 32
 """Nominal motions that a process remembers to be within the workspace."""
@@ -39,12 +35,18 @@ def check_fit(loop: "Loop") -> None:
         )
     relaxation, used = loop.trajectory.relaxation, loop.trajectory.values["error_relaxation"]
     if relaxation.order != order:
-        fitting = [each for each, one in RELAXATIONS.items() if one.order == order]
+        fitting = [each for each in RELAXATIONS.names() if RELAXATIONS[each].order == order]
         raise BadInput(
             f"trajectory_generator.error_relaxation: {used} is for a response of order "
             f"{relaxation.order}, the plant {name} answers with order {order}: "
             f"{' or '.join(fitting)}"
         )
+    for stage in loop.answering():
+        if "cycle_time" in stage.values and stage.values["cycle_time"] not in (0.0, loop.plant.dt):
+            raise BadInput(
+                f"{stage.name}.cycle_time: {stage.values['cycle_time']} s given, the plant's dt is "
+                f"{loop.plant.dt} s"
+            )
     tunes = loop.tuner.active and loop.tuner.law.tunes == COEFFICIENTS
     if tunes and loop.tuner.values["model"] != loop.deformer.values["model"]:
         raise BadInput(
@@ -64,7 +66,7 @@ def _check_motion(loop: "Loop") -> None:
         plant.dt,
         trajectory.trajectory.nominal,
         trajectory.controlled,
-        tuple(trajectory.constants),
+        tuple(trajectory.constants.nominal),
     )
     if key not in _good_motions:
         check_workspace(loop)

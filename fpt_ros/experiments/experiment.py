@@ -10,15 +10,17 @@ from fpt_ros.cycle.denoiser import FILTER_OF_NOISE, METHOD, SYNCHRONISED, Denois
 from fpt_ros.cycle.fpt_deformer import FptDeformer
 from fpt_ros.cycle.parameter_tuner import ParameterTuner, in_the_loop
 from fpt_ros.cycle.plant_simulator import PlantSimulator
-from fpt_ros.cycle.stage import CYCLE_TIME, Stage
-from fpt_ros.cycle.stages import STAGES
+from fpt_ros.cycle.stage import CYCLE_TIME, JOINTS
+from fpt_ros.cycle.stages import STAGES, Loop
 from fpt_ros.cycle.trajectory_generator import TrajectoryGenerator
+from fpt_ros.cycle.tuned import CONTROLLED
 from fpt_ros.errors import BadInput
 from fpt_ros.experiments import description, parameter_file
 from fpt_ros.experiments.checks import check_fit
 from fpt_ros.experiments.locate import config_directory
 from fpt_ros.experiments.parameter_file import ParameterFile
-from fpt_ros.parameters import Parameter, Value, Values, resolve
+from fpt_ros.parameters import Parameter, Value, Values, resolve, word
+from fpt_ros.plants import PLANTS, made
 
 BASE = "adaptive"
 """Name of the variant that is the file itself, without an overlay."""
@@ -30,19 +32,8 @@ SECTIONS: dict[str, Callable[[Values], tuple[Parameter, ...]]] = {
 """The nodes of a file, each with its parameters as a function of what is given."""
 
 
-@dataclass(frozen=True)
-class Loop:
-    """The five stages of one run, ready for cycle 0."""
-
-    plant: PlantSimulator
-    denoiser: Denoiser
-    trajectory: TrajectoryGenerator
-    tuner: ParameterTuner
-    deformer: FptDeformer
-
-    def stages(self) -> tuple[Stage, ...]:
-        """All of them, in the order of events."""
-        return self.plant, self.denoiser, self.trajectory, self.tuner, self.deformer
+OWN_CONTROLLED = (TrajectoryGenerator.name, CONTROLLED.name)
+"""Where it is said which coordinates are controlled; other nodes are told."""
 
 
 @dataclass(frozen=True)
@@ -90,8 +81,6 @@ class Experiment:
         nodes = {node: dict(values) for node, values in self.nodes.items()}
         for values in nodes.values():
             values["realtime"] = realtime
-            if CYCLE_TIME.name in values:
-                values[CYCLE_TIME.name] = self.nodes[PlantSimulator.name]["dt"]
         return replace(self, nodes=nodes)
 
     def write(self, path: Path) -> None:
@@ -161,8 +150,9 @@ def load(
     for section_values in file.nodes.values():
         section_values.pop("await_tuning", None)
     file.shared["await_tuning"] = in_loop
-    _check_shared(path, file, base)
     explicit = {(node, parameter) for node, parameter, _ in changes}
+    _derive_names(file, _resolve(PlantSimulator.name, file, base, explicit), changes)
+    _check_shared(path, file, base)
     nodes = {node: _resolve(node, file, base, explicit) for node in SECTIONS}
     experiment = Experiment(path.stem, variant, nodes, source)
     experiment.loop()
@@ -186,6 +176,30 @@ def _share_synchronised(file: ParameterFile) -> None:
         file.nodes[node].pop(name, None)
     if given is not None:
         file.shared[name] = given
+
+
+def _derive_names(
+    file: ParameterFile, plant: Values, changes: Iterable[tuple[str, str, object]]
+) -> None:
+    """What all nodes know of the plant and of the motion: joints, cycle time, controlled."""
+    controlled = file.nodes[TrajectoryGenerator.name].get(CONTROLLED.name)
+    derived: dict[str, object] = {
+        JOINTS.name: list(made(PLANTS[word(plant, "plant")], plant, "exact").coordinates),
+        CYCLE_TIME.name: plant["dt"],
+        CONTROLLED.name: controlled if controlled is not None else [],
+    }
+    for node, parameter, value in changes:
+        if (node, parameter) == OWN_CONTROLLED or parameter not in derived:
+            continue
+        if value != derived[parameter]:
+            raise BadInput(f"{node}.{parameter} follows from plant and trajectory: leave it out")
+    for name in derived:
+        file.shared.pop(name, None)
+    for node, parameters in SECTIONS.items():
+        values = file.nodes[node]
+        for name in _declared(parameters, {**file.shared, **values}) & derived.keys():
+            if (node, name) != OWN_CONTROLLED:
+                values[name] = cast(Value, derived[name])
 
 
 def _filter_noise(file: ParameterFile) -> None:

@@ -1,17 +1,13 @@
 """Whether the nominal motion asks for what the plant cannot do."""
 
-from typing import TYPE_CHECKING
-
+from fpt_ros.cycle.stages import Loop
 from fpt_ros.errors import BadInput
 from fpt_ros.experiments.nominal import sample
-
-if TYPE_CHECKING:
-    from fpt_ros.experiments.experiment import Loop
 
 SAMPLES = 400
 
 
-def check_workspace(loop: "Loop") -> None:
+def check_workspace(loop: Loop) -> None:
     """Raise BadInput where a nominal position leaves the plant's workspace during the run."""
     plant = loop.plant.plant
     if plant.workspace is None:

@@ -28,6 +28,7 @@ import numpy as np
 from fpt_ros.errors import BadInput
 from fpt_ros.gain.map import ScalarMap, scalar_map
 from fpt_ros.gain.motion import Point, feedback, nominal_points, spectrum
+from fpt_ros.parameters import flag
 from fpt_ros.runs.run import Array
 from fpt_ros.tuning import GAIN
 
@@ -182,7 +183,7 @@ def bounds(experiment: "Experiment", points: Sequence[Point] | None = None) -> G
     loop = experiment.loop()
     deformer = loop.deformer
     transformation = deformer.transformation
-    if transformation is None:
+    if not transformation.adapts:
         raise BadInput(
             f"{experiment.name} {experiment.variant} has no fixed point transformation "
             "(fpt_deformer.transformation: none): there is no gain to choose"
@@ -200,7 +201,8 @@ def bounds(experiment: "Experiment", points: Sequence[Point] | None = None) -> G
     tiny = 1e-9 * size
     side = 1.0 if least >= -tiny else -1.0
     one_sign = size > 0.0 and (least >= -tiny or greatest <= tiny)
-    scalar = scalar_map(transformation, deformer.constants, side)
+    constants = deformer.constants.transformation
+    scalar = scalar_map(transformation, constants, side)
     # the circle |1 - a lambda| = 1 is left at a = 2 Re lambda / |lambda|^2
     steepness = np.zeros(real.shape)
     np.divide(np.abs(found) ** 2, np.abs(real), out=steepness, where=np.abs(real) > tiny)
@@ -208,7 +210,7 @@ def bounds(experiment: "Experiment", points: Sequence[Point] | None = None) -> G
     steepest, flattest = float(of_points.max()), float(of_points.min())
     fed_back = feedback(loop)
     scale = 1.0 / (steepest * (1.0 + fed_back)) if steepest > 0.0 else 1.0
-    slope = transformation.slope(deformer.constants)
+    slope = transformation.slope(constants)
     sign = int(-math.copysign(1.0, slope * side)) if one_sign else 0
     hard = scalar.hard_onset()
     hard_onset = hard.p * scale if hard is not None and one_sign else None
@@ -222,7 +224,7 @@ def bounds(experiment: "Experiment", points: Sequence[Point] | None = None) -> G
         eigenvalues=(least, greatest),
         feedback=fed_back,
         slope=slope,
-        step_limit=transformation.step_limit(deformer.constants),
+        step_limit=transformation.step_limit(constants),
         reach=min(-low, high),
         monotone=0.5 * linear,
         linear_limit=linear,
@@ -253,7 +255,7 @@ def _rounded_down(x: float) -> float:
 def warning(experiment: "Experiment") -> str:
     """What is to be said, in one line, of an experiment's A before a run; empty: nothing."""
     loop = experiment.loop()
-    if loop.deformer.transformation is None or loop.tuner.law.tunes == GAIN:
+    if not loop.deformer.transformation.adapts or loop.tuner.law.tunes == GAIN:
         return ""
     try:
         gain = bounds(experiment)
@@ -271,7 +273,7 @@ def warning(experiment: "Experiment") -> str:
             "no fpt_deformer.A contracts along the nominal motion, where the response's "
             f"eigenvalues are between {least:.4g} and {greatest:.4g} ({more})"
         )
-    if loop.tuner.guards and A * sign > 0.0:
+    if flag(loop.tuner.values, "precursor_guard") and A * sign > 0.0:
         return ""  # the precursor guard lowers |A| by itself
     if not gain.contracts(A):
         part = (

@@ -227,7 +227,7 @@ def scalar_map(transformation: Transformation, constants: Vector, eigenvalue: fl
     def step(u: float) -> float:
         out = [0.0]
         try:
-            transformation.deform(own, [0.0], [u], out)
+            transformation.deform(own, [0.0], [u], [u], [0.0], out)
         except (ArithmeticError, ValueError):
             return math.nan
         return -side * out[0]

@@ -4,19 +4,18 @@ import math
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from functools import partial
-from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
+from fpt_ros.cycle.stages import Loop
 from fpt_ros.cycle.trajectory_generator import slot
+from fpt_ros.engine.engine import Engine
+from fpt_ros.errors import BadInput
 from fpt_ros.experiments import nominal
+from fpt_ros.experiments.experiment import Experiment
 from fpt_ros.laws import NOT_CONTROLLED
 from fpt_ros.runs.run import Array
-
-if TYPE_CHECKING:
-    from fpt_ros.engine.engine import Engine
-    from fpt_ros.experiments.experiment import Experiment, Loop
 
 POINTS = 200
 """Points along the motion at which the response is linearised."""
@@ -53,23 +52,23 @@ class Course:
     eigenvalues: Array
 
 
-def course(experiment: "Experiment", points: Sequence[Point] | None = None) -> Course:
+def course(experiment: Experiment, points: Sequence[Point] | None = None) -> Course:
     """The eigenvalues along a motion, the nominal one by default."""
     loop = experiment.loop()
     points = nominal_points(loop) if points is None else points
     return Course(np.array([point.time for point in points]), spectrum(loop, points).real)
 
 
-def feedback(loop: "Loop") -> float:
+def feedback(loop: Loop) -> float:
     """How much of the response error the desired response takes back within the learning delay."""
-    relaxation, lam = loop.trajectory.relaxation, loop.trajectory.lam
-    relax = partial(relaxation.prescribe, lam, 0.0)
+    relaxation = loop.trajectory.relaxation
+    relax = partial(relaxation.prescribe, loop.trajectory.constants.relaxation, 0.0)
     changed = {0: (0.0, 0.0), 1: (1.0, 0.0), 2: (0.0, 1.0)}[relaxation.order]
     rate = relax(*changed, 0.0) - relax(0.0, 0.0, 0.0)
     return rate * loop.plant.dt * max(loop.deformer.delay, loop.deformer.hold)
 
 
-def nominal_points(loop: "Loop") -> list[Point]:
+def nominal_points(loop: Loop) -> list[Point]:
     """The nominal motion at ``POINTS`` times."""
     plant, trajectory, dt = loop.plant, loop.trajectory, loop.plant.dt
     stride = max(1, plant.cycles // POINTS)
@@ -79,9 +78,9 @@ def nominal_points(loop: "Loop") -> list[Point]:
     n, where = len(plant.coordinates), trajectory.locate(plant.coordinates)
     points = []
     for cycle, (q_n, v_n, r_n) in list(zip(cycles, motions, strict=True))[:: stride // every]:
-        q, v = list(plant.state[:n]), list(plant.state[n : 2 * n])
+        q, v = list(plant.memory.position), list(plant.memory.velocity)
         r = [NOT_CONTROLLED] * n
-        active = slot(trajectory.slots, float(cycle * plant.cycle_time))
+        active = slot(trajectory.constants.slots, float(cycle * plant.cycle_time))
         for i, at in enumerate(where):
             q[at], v[at] = q_n[i], v_n[i]
             if active in (-1, i):
@@ -90,7 +89,7 @@ def nominal_points(loop: "Loop") -> list[Point]:
     return points
 
 
-def along(engine: "Engine", loop: "Loop") -> list[Point]:
+def along(engine: Engine, loop: Loop) -> list[Point]:
     """The motion of a run at ``POINTS`` times, with the model as it was tuned then."""
     topics = engine.topics()
     state, command = topics["state_estimate"], topics["command"]
@@ -114,7 +113,7 @@ def along(engine: "Engine", loop: "Loop") -> list[Point]:
     return points
 
 
-def spectrum(loop: "Loop", points: Iterable[Point]) -> NDArray[np.complex128]:
+def spectrum(loop: Loop, points: Iterable[Point]) -> NDArray[np.complex128]:
     """Eigenvalues of W J, a row a point, sorted; NaN where it has fewer, or is not defined."""
     controlled = loop.trajectory.locate(loop.plant.coordinates)
     weights = dict(
@@ -132,7 +131,7 @@ def spectrum(loop: "Loop", points: Iterable[Point]) -> NDArray[np.complex128]:
     return np.array(rows).reshape(len(rows), len(controlled))
 
 
-def jacobian(loop: "Loop", point: Point) -> Array:
+def jacobian(loop: Loop, point: Point) -> Array:
     """J = df/dr over the coordinates that are controlled at a point, by central differences."""
     where = [
         at for at in loop.trajectory.locate(loop.plant.coordinates) if not math.isnan(point.r[at])
@@ -152,10 +151,12 @@ def jacobian(loop: "Loop", point: Point) -> Array:
     return J
 
 
-def response(loop: "Loop", point: Point, r: list[float]) -> list[float]:
+def response(loop: Loop, point: Point, r: list[float]) -> list[float]:
     """f(r): the exact plant's response to the approximate model's effort for r."""
     n = len(point.q)
     effort, out = [0.0] * n, [0.0] * n
     loop.deformer.model.effort(point.coefficients, point.q, point.v, r, [0.0] * n, effort)
+    if loop.plant.plant.response is None:
+        raise BadInput(f"the plant {loop.plant.values['plant']} has no response to linearise")
     loop.plant.plant.response(loop.plant.coefficients, point.q, point.v, effort, out)
     return out

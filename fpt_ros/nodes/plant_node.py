@@ -9,7 +9,7 @@ from collections import deque
 from time import monotonic, time_ns
 
 from fpt_ros.cycle.plant_simulator import PlantSimulator
-from fpt_ros.errors import RunFailed
+from fpt_ros.errors import BadInput, RunFailed
 from fpt_ros.messages.cdr import Codec, MalformedMessage
 from fpt_ros.messages.frames import SECOND, Command
 from fpt_ros.messages.topics import COMMAND, DEPTH, JOINT_STATES
@@ -63,9 +63,9 @@ class PlantNode(ParameterisedNode):
 
     def _on_command(self, data: bytes) -> None:
         try:
-            command = self._decode(data)
-        except MalformedMessage as error:
-            self.get_logger().error(f"ignored: {error}", once=True)
+            command = self.stage.admit(COMMAND, self._decode(data))
+        except (MalformedMessage, BadInput) as error:
+            self.ignore(error)
             return
         assert isinstance(command, Command)
         if self._realtime and command.stamp > self._timed:

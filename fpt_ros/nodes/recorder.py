@@ -15,6 +15,7 @@ from pathlib import Path
 
 from fpt_ros import __version__
 from fpt_ros.bags.writer import BagWriter
+from fpt_ros.cycle.matcher import under_way
 from fpt_ros.errors import RunFailed
 from fpt_ros.experiments import description
 from fpt_ros.experiments.experiment import BASE, complete
@@ -25,7 +26,7 @@ from fpt_ros.nodes.loop_node import LoopNode, message_class
 from fpt_ros.nodes.qos import loop_qos
 from fpt_ros.nodes.recorded_until import RECORDED_UNTIL, TIME, encode_time
 from fpt_ros.nodes.ros_parameters import declare
-from fpt_ros.nodes.stage_node import CHANGES, under_way
+from fpt_ros.nodes.stage_node import CHANGES
 from fpt_ros.parameters import integer, word
 
 ACKNOWLEDGE = 8

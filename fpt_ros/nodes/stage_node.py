@@ -1,15 +1,17 @@
 """A node around one stage: it waits for the messages of a cycle, steps, and publishes."""
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from typing import Any
 
 from rcl_interfaces.msg import ParameterEvent
 from rclpy.parameter import Parameter as RosParameter
 
+from fpt_ros.cycle.matcher import Matcher
 from fpt_ros.cycle.stage import Stage
-from fpt_ros.errors import RunFailed
+from fpt_ros.errors import BadInput
 from fpt_ros.messages.cdr import Codec, MalformedMessage
 from fpt_ros.messages.frames import SECOND, Frame
+from fpt_ros.messages.topics import Topic
 from fpt_ros.nodes.loop_node import LoopNode
 from fpt_ros.nodes.qos import LATEST
 from fpt_ros.nodes.ros_parameters import declare, watch
@@ -19,6 +21,10 @@ CHANGES = "parameter_changes"
 """Topic of the changes made in flight, each with the stamp of the cycle in which it took effect."""
 
 
+REASONS = 32
+"""Different reasons for which a node says that it has ignored a message."""
+
+
 class ParameterisedNode(LoopNode):
     """A node that holds a stage; its live parameters change the stage at the next cycle."""
 
@@ -26,6 +32,7 @@ class ParameterisedNode(LoopNode):
         super().__init__(kind.name)
         self.stage: Any = kind(declare(self, kind.parameters))
         self._pending: dict[str, Value] = {}
+        self._ignored: set[str] = set()
         self._changes = self.create_publisher(ParameterEvent, CHANGES, 10)
         self._publish = self.advertise(kind.output) if self.publishes else None
         self._encode = Codec(kind.output).encode
@@ -60,6 +67,13 @@ class ParameterisedNode(LoopNode):
         ]
         self._changes.publish(event)
 
+    def ignore(self, error: Exception) -> None:
+        """Tell, once a reason, why a message was not used; the loop stays as it was."""
+        reason = str(error)
+        if reason not in self._ignored and len(self._ignored) < REASONS:
+            self._ignored.add(reason)
+            self.get_logger().error(f"ignored: {reason}")
+
     def send(self, frame: Frame) -> None:
         """Publish the stage's output."""
         assert self._publish is not None
@@ -70,76 +84,45 @@ class ParameterisedNode(LoopNode):
 class StageNode(ParameterisedNode):
     """A stage that answers its inputs: denoiser, trajectory generator, tuner, deformer.
 
-    In lockstep it steps when all messages of a cycle are there. In real time it steps as soon as
-    those of the newest cycle are, and takes the newest there is of what is optional.
+    It steps when the messages of a cycle are complete (:class:`~fpt_ros.cycle.matcher.Matcher`). A
+    message that it cannot use (other bytes, a joint that is not there) is told once and ignored.
     """
 
     def __init__(self, kind: type[Stage]) -> None:
         super().__init__(kind)
         inputs = self.stage.inputs
-        self._latest: list[Any] = [None] * len(inputs)
-        self._lags = tuple(each.lag for each in inputs)
-        self._codecs = tuple(Codec(each.topic) for each in inputs)
-        self._acted = -1
-        self._wait_for = tuple(i for i, lag in enumerate(self._lags) if lag == 0)
-        self._realtime = bool(self.stage.values.get("realtime", False))
-        self._cycle_time = round(float(self.stage.values.get("cycle_time", 0.0)) * SECOND)
+        realtime = bool(self.stage.values.get("realtime", False))
+        cycle_time = round(float(self.stage.values.get("cycle_time", 0.0)) * SECOND)
+        self._matcher = Matcher(inputs, cycle_time, realtime)
         for i, each in enumerate(inputs):
-            self.subscribe_raw(each.topic.name, each.topic.type, LATEST, self._receiver(i))
+            receive = self._receiver(i, each.topic)
+            self.subscribe_raw(each.topic.name, each.topic.type, LATEST, receive)
 
     @property
     def publishes(self) -> bool:
         """A tuner without a method has no inputs, and is not in the loop."""
         return bool(self.stage.inputs)
 
-    def _receiver(self, index: int) -> Any:
-        decode = self._codecs[index].decode
+    def _receiver(self, index: int, topic: Topic) -> Callable[[bytes], None]:
+        take, decode = self._matcher.take, Codec(topic).decode
 
         def receive(data: bytes) -> None:
             try:
-                frame = decode(data)
-            except MalformedMessage as error:
-                self.get_logger().error(f"ignored: {error}", once=True)
+                frame = self.stage.admit(topic, decode(data))
+            except (MalformedMessage, BadInput) as error:
+                self.ignore(error)
                 return
-            if frame.stamp < self._acted and not self._realtime:
-                return  # of a run that has begun later: it must not take the place of ours
-            self._latest[index] = frame
-            self._try_step()
+            frames = take(index, frame)
+            if frames is not None:
+                self._step(frames)
 
         return receive
 
-    def _try_step(self) -> None:
-        """Step if the messages of a cycle not acted on are complete."""
-        latest = self._latest
-        first = latest[self._wait_for[0]]
-        if first is None or first.stamp <= self._acted:
-            return
-        stamp, last = first.stamp, self.stage.clock[1]
-        arguments = []
-        for frame, lag in zip(latest, self._lags, strict=True):
-            wanted = last if lag else stamp
-            if frame is not None and frame.stamp == wanted:
-                arguments.append(frame)
-            elif lag and (last < 0 or self._realtime):
-                arguments.append(None)
-            else:
-                return
-        due = last + self._cycle_time if last >= 0 else 0
-        unknown = last >= 0 and not self._cycle_time
-        if not (self._realtime or unknown) and stamp != due:
-            raise under_way(stamp)
-        self._acted = stamp
+    def _step(self, frames: list[Frame | None]) -> None:
+        """One cycle."""
         if self._pending:
-            self.apply_changes(stamp)
-        self.send(self.stage.step(*arguments))
-
-
-def under_way(stamp: int) -> RunFailed:
-    """For who comes to a run in lockstep that is not at its first cycle, but at ``stamp`` [ns]."""
-    return RunFailed(
-        f"a run is under way here already (t = {stamp / SECOND:g} s): use another ROS_DOMAIN_ID "
-        "or --namespace"
-    )
+            self.apply_changes(self._matcher.acted)
+        self.send(self.stage.step(*frames))
 
 
 def run_stage(kind: type[Stage]) -> None:

@@ -8,13 +8,39 @@ can be (thesis, Theta of section 2.2), because it is these that identification t
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import Generic, TypeVar
 
 from fpt_ros.laws import MutableVector, Vector
-from fpt_ros.parameters import Parameter
+from fpt_ros.parameters import Parameter, Value, Values
+from fpt_ros.registry import Kind
 
-RESPONSE = "vvvvv-"
-EFFORT = "vvvvvv-"
-REGRESSOR = "vvvvv-"
+Response = Callable[[Vector, Vector, Vector, Vector, MutableVector], None]
+"""(coefficients, q, v, effort, out)"""
+
+Effort = Callable[[Vector, Vector, Vector, Vector, Vector, MutableVector], None]
+"""(coefficients, q, v, r, s, out)"""
+
+Regressor = Callable[[Vector, Vector, Vector, Vector, MutableVector], None]
+"""(q, v, w, a, out)"""
+
+Advance = Callable[
+    [
+        Vector,
+        MutableVector,
+        float,
+        float,
+        Vector,
+        Vector,
+        MutableVector,
+        MutableVector,
+        MutableVector,
+    ],
+    None,
+]
+"""(coefficients, state, t, dt, effort, external, q, v, acted)"""
+
+Start = Callable[[Vector, MutableVector, Vector, Vector], None]
+"""(coefficients, state, q, v)"""
 
 
 @dataclass(frozen=True)
@@ -28,7 +54,14 @@ class Plant:
         parameters: physical parameters, in the order in which ``coefficients`` takes them.
         coefficients: physical parameters -> coefficients.
         response: ``response(coefficients, q, v, effort, out)`` writes the n responses that the
-            efforts cause at (q, v): derivatives of order ``order``.
+            efforts cause at (q, v): derivatives of order ``order``. The stage integrates them.
+        advance: of a plant that integrates itself, in the place of ``response`` (which is then
+            for analyses only): ``advance(coefficients, state, t, dt, effort, external, q, v,
+            acted)`` moves q and v on by dt [s] from t [s], under the efforts and the external
+            forces of a disturbance, and writes the efforts that really acted. ``state`` holds
+            ``state`` numbers of its own. What it cannot do it writes as NaN.
+        state: number of state variables beside q and v.
+        start: ``start(coefficients, state, q, v)`` sets them for the initial motion.
         order: 2 for mechanical systems, whose response is the acceleration; 1 where it is the first
             derivative; 0 where it is the value itself (a bare iteration).
         workspace: coefficients -> (lowest, highest) position of each coordinate that a nominal
@@ -42,10 +75,13 @@ class Plant:
     effort_units: tuple[str, ...]
     parameters: tuple[Parameter, ...]
     coefficients: Callable[[Vector], tuple[float, ...]]
-    response: Callable[[Vector, Vector, Vector, Vector, MutableVector], None]
+    response: Response | None = None
     order: int = 2
     workspace: Callable[[Vector], tuple[tuple[float, float], ...]] | None = None
     trouble: Callable[[Vector, Vector], str] | None = None
+    advance: Advance | None = None
+    state: int = 0
+    start: Start | None = None
 
 
 @dataclass(frozen=True)
@@ -76,7 +112,37 @@ class Model:
     parameters: tuple[Parameter, ...]
     coefficient_names: tuple[str, ...]
     coefficients: Callable[[Vector], tuple[float, ...]]
-    effort: Callable[[Vector, Vector, Vector, Vector, Vector, MutableVector], None]
-    regressor: Callable[[Vector, Vector, Vector, Vector, MutableVector], None] | None = None
+    effort: Effort
+    regressor: Regressor | None = None
     rows: int = 0
     trouble: Callable[[Vector, Vector], str] | None = None
+
+
+Made = TypeVar("Made", Plant, Model)
+
+
+@dataclass(frozen=True)
+class Factory(Generic[Made]):
+    """A plant or model whose coordinates, units or laws depend on parameters, as on a file's name.
+
+    Attributes:
+        parameters: all that it takes, words among them.
+        make: ``make(values)`` with these, by name, complete and checked. Of the
+            plant or model that it gives ``parameters`` may be empty; its coefficients may hold
+            whatever the laws need, an address for example (:mod:`fpt_ros.foreign`).
+    """
+
+    parameters: tuple[Parameter, ...]
+    make: Callable[[Values], Made]
+
+
+PLANTS: Kind[Plant | Factory[Plant]] = Kind((Plant, Factory), "plants")
+MODELS: Kind[Model | Factory[Model]] = Kind((Model, Factory), "models")
+
+
+def made(entry: Made | Factory[Made], values: Values, prefix: str) -> Made:
+    """The plant or model itself, for the checked parameters ``prefix.NAME``."""
+    if not isinstance(entry, Factory):
+        return entry
+    own: dict[str, Value] = {p.name: values[f"{prefix}.{p.name}"] for p in entry.parameters}
+    return entry.make(own)

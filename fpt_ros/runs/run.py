@@ -1,7 +1,7 @@
 """A run as arrays: what analysis works on, whether it comes from the engine or from a recording."""
 
 from array import array
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -11,7 +11,7 @@ from fpt_ros import __version__
 from fpt_ros.experiments.experiment import Experiment
 from fpt_ros.laws import Vector
 from fpt_ros.messages.frames import SECOND, Frame, Names
-from fpt_ros.messages.topics import LOOP_TOPICS, Topic
+from fpt_ros.messages.topics import DESIRED, JOINT_STATES, LOOP_TOPICS, Topic
 from fpt_ros.parameters import Value
 from fpt_ros.runs.latency import Latencies
 
@@ -40,6 +40,63 @@ class Series:
     def column(self, vector: str, name: str) -> Array:
         """(N,) numbers of one name."""
         return self.vectors[vector][:, self.names.index(name)]
+
+    def copy(self) -> "Series":
+        """The same in arrays of its own."""
+        vectors = {name: matrix.copy() for name, matrix in self.vectors.items()}
+        return Series(self.stamps.copy(), self.names, vectors)
+
+    def without_empty(self, vector: str) -> "Series":
+        """The same without the names of which this vector has no number at all."""
+        found = np.asarray(~np.isnan(self.vectors[vector]).all(axis=0))
+        if found.all():
+            return self
+        names = tuple(name for name, there in zip(self.names, found, strict=True) if there)
+        return Series(
+            self.stamps, names, {name: each[:, found] for name, each in self.vectors.items()}
+        )
+
+
+def joined(parts: Sequence[Series]) -> Series:
+    """Series of the same names, one after the other."""
+    if len(parts) == 1:
+        return parts[0]
+    vectors = {
+        name: np.concatenate([part.vectors[name] for part in parts]) for name in parts[0].vectors
+    }
+    stamps = np.concatenate([part.stamps for part in parts])
+    return Series(stamps, parts[0].names, vectors)
+
+
+def frames(topics: Mapping[str, Series]) -> Iterator[tuple[Topic, Frame]]:
+    """The frames of a run in which no message is missing, in the order of events.
+
+    In ``desired`` a frame names the coordinates whose turn it is: those that have a response.
+    """
+    rows = {
+        topic: (
+            topics[topic.name].names,
+            [each.tolist() for each in topics[topic.name].vectors.values()],
+        )
+        for topic in LOOP_TOPICS
+        if topic.name in topics
+    }
+    stamps = topics[JOINT_STATES.name].stamps.tolist() if topics else []
+    for i, stamp in enumerate(stamps):
+        for topic, (names, lists) in rows.items():
+            if i >= len(lists[0]):
+                continue
+            vectors = [vector[i] for vector in lists]
+            if topic is DESIRED and any(x != x for x in vectors[2]):
+                at = [j for j, x in enumerate(vectors[2]) if x == x]
+                yield (
+                    topic,
+                    topic.frame(
+                        stamp, tuple(names[j] for j in at), *[[v[j] for j in at] for v in vectors]
+                    ),
+                )
+            else:
+                yield topic, topic.frame(stamp, names, *vectors)
 
 
 @dataclass(frozen=True)
@@ -80,7 +137,7 @@ class Collector:
     _numbers: dict[str, dict[str, "array[float]"]] = field(default_factory=dict)
 
     def __call__(self, topic: Topic, frame: Frame) -> None:
-        """Take one frame; an :data:`~fpt_ros.engine.engine.Observer`."""
+        """Take one frame; as :meth:`fpt_ros.cycle.run.Run.frames` gives them."""
         key = topic.name
         if key not in self._stamps:
             self._stamps[key] = array("q")

@@ -3,8 +3,8 @@
 from collections.abc import Mapping, Sequence
 from typing import cast
 
+from fpt_ros.cycle.stages import Loop
 from fpt_ros.errors import BadInput
-from fpt_ros.experiments.experiment import Loop
 
 _TRACKING = ("rms_settled", "max_settled", "rms", "max")
 _EFFORT = {"effort": "rms", "effort_max": "max"}

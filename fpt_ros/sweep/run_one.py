@@ -5,9 +5,10 @@ from time import perf_counter
 from typing import cast
 
 from fpt_ros.analysis.metrics import summary
+from fpt_ros.cycle.stages import Loop
 from fpt_ros.engine.engine import Engine
 from fpt_ros.errors import BadInput, Diverged, RunFailed
-from fpt_ros.experiments.experiment import Experiment, Loop
+from fpt_ros.experiments.experiment import Experiment
 from fpt_ros.runs.run import Run, describe
 from fpt_ros.sweep.ground import Experiments, experiments_of
 from fpt_ros.sweep.job import COMPLETE, DIVERGED, FAILED, INVALID, Job, Row

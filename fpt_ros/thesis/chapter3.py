@@ -227,7 +227,7 @@ def bifurcation_figure(runs: Runs) -> Drawn:
         constants = sgfpt.SGFPT.prepare(values)
         r = [-4.0]
         for i in range(260):
-            sgfpt.SGFPT.deform(constants, r, [r[0] + 3.0], r)
+            sgfpt.SGFPT.deform(constants, r, [r[0] + 3.0], [r[0]], [-3.0], r)
             if i >= 200:
                 points_A.append(float(A))
                 points_r.append(r[0])

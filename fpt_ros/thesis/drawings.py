@@ -6,7 +6,6 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from fpt_ros import registry
 from fpt_ros.analysis import motion_figures, response_figures, signals, style
 from fpt_ros.analysis.labels import all_names
 from fpt_ros.analysis.legends import colour_of
@@ -129,9 +128,9 @@ def disturbance(*keys: str) -> Draw:
 def disturbance_of(run: Run) -> tuple[Array, Array]:
     """Times [s] and the disturbance, of a kind that is a function of time alone."""
     plant = PlantSimulator(run.parameters[PlantSimulator.name])
-    law = registry.disturbance(str(signals.parameter(run, plant.name, "disturbance.kind")))
+    law = plant.disturbance
     time = signals.seconds(run, run.topics["joint_states"].stamps)
-    constants = plant.disturbance_constants
+    constants = plant.constants.disturbance
     return time, np.array([law.force(constants, [], t, 0.0, 0.0, 0.0) for t in time.tolist()])
 
 

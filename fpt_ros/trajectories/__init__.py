@@ -5,8 +5,12 @@ from dataclasses import dataclass
 
 from fpt_ros.laws import MutableVector, Vector
 from fpt_ros.parameters import Parameter, Values, numbers
+from fpt_ros.registry import Kind
 
-NOMINAL = "vvffvvv-"
+Nominal = Callable[
+    [Vector, MutableVector, float, float, MutableVector, MutableVector, MutableVector], None
+]
+"""(constants, state, t, dt, out_q, out_v, out_a)"""
 
 
 @dataclass(frozen=True)
@@ -26,20 +30,12 @@ class Trajectory:
     """
 
     prepare: Callable[[Values, int], tuple[float, ...]]
-    nominal: Callable[
-        [
-            Vector,
-            MutableVector,
-            float,
-            float,
-            MutableVector,
-            MutableVector,
-            MutableVector,
-        ],
-        None,
-    ]
+    nominal: Nominal
     parameters: tuple[Parameter, ...] = ()
     state: tuple[float, ...] = ()
+
+
+TRAJECTORIES: Kind[Trajectory] = Kind(Trajectory, "trajectories")
 
 
 def scales(values: Values, c: int) -> tuple[float, ...]:

@@ -11,8 +11,10 @@ from dataclasses import dataclass
 
 from fpt_ros.laws import MutableVector, Vector
 from fpt_ros.parameters import Parameter, Values
+from fpt_ros.registry import Kind
 
-DEFORM = "vvvv-"
+Deform = Callable[[Vector, Vector, Vector, Vector, Vector, MutableVector], None]
+"""(constants, r, h, f, desired, out)"""
 
 TINY = 1e-12
 """Response errors below this norm leave r unchanged: h/||h|| means nothing there."""
@@ -34,16 +36,22 @@ class Transformation:
         parameters: under the thesis's letters (A, B, D, K).
         prepare: checked parameters -> constants, the gain A first, fixed points among them; raises
             BadInput where the parameters give none.
-        deform: ``deform(constants, r, h, out)`` writes the next r. All vectors are over the
-            controlled coordinates. NaN where it is not defined.
+        deform: ``deform(constants, r, h, f, desired, out)`` writes the next r. f is the response
+            observed, h = f - desired its error (weighted). All vectors are over the controlled
+            coordinates. NaN where it is not defined.
         slope: constants -> what the step is close to: r' = r + A slope h for a small response
             error h. The range of A in which the iteration contracts follows from it.
         step_limit: constants -> the largest step that the transformation can make towards the
             solution (inf: none), for A of the sign that converges.
+        adapts: whether it deforms at all; of ``none`` alone it does not.
     """
 
     parameters: tuple[Parameter, ...]
     prepare: Callable[[Values], tuple[float, ...]]
-    deform: Callable[[Vector, Vector, Vector, MutableVector], None]
+    deform: Deform
     slope: Callable[[Vector], float]
     step_limit: Callable[[Vector], float]
+    adapts: bool = True
+
+
+TRANSFORMATIONS: Kind[Transformation] = Kind(Transformation, "transformations")

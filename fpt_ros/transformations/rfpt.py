@@ -33,7 +33,9 @@ def sigma(x: float) -> float:
     return x / (1.0 + abs(x))
 
 
-def deform(constants: Vector, r: Vector, h: Vector, out: MutableVector) -> None:
+def deform(
+    constants: Vector, r: Vector, h: Vector, f: Vector, desired: Vector, out: MutableVector
+) -> None:
     """(2.13) or (2.22)."""
     A, B, K, signed = constants[0], constants[1], constants[2], constants[3]
     if signed:

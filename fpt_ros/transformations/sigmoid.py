@@ -58,7 +58,9 @@ def transformation(
 ) -> Transformation:
     """The transformation that F generates; F and its derivative take all constants, and x."""
 
-    def deform(constants: Vector, r: Vector, h: Vector, out: MutableVector) -> None:
+    def deform(
+        constants: Vector, r: Vector, h: Vector, f: Vector, desired: Vector, out: MutableVector
+    ) -> None:
         gain, attractive, least = constants[0], constants[1], constants[2]
         if constants[3] != 0.0:
             for i in range(len(r)):

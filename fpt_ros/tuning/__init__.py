@@ -2,11 +2,30 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import NamedTuple
 
 from fpt_ros.laws import MutableVector, Vector
 from fpt_ros.parameters import Parameter, Values
+from fpt_ros.registry import Kind
 
-UPDATE = "vvfvvvvvv-"
+
+class Seen(NamedTuple):
+    """What a tuning law is shown of the cycle before, now that its response is known.
+
+    Y: len(error) rows of len(values) numbers, row after row. error: E. tracking: e, e' and the
+    combined error s, each for the c controlled coordinates. h: the response error of this cycle,
+    for the controlled ones. r: the deformed response of all coordinates, NaN where not controlled.
+    """
+
+    Y: Vector
+    error: Vector
+    tracking: Vector
+    h: Vector
+    r: Vector
+
+
+Update = Callable[[Vector, MutableVector, float, MutableVector, Seen], None]
+"""(constants, memory, dt, values, seen)"""
 
 COEFFICIENTS = "coefficients"
 """What most laws tune: the coefficients of the approximate model."""
@@ -29,12 +48,9 @@ class TuningLaw:
     Attributes:
         parameters: rate, regularisation, ...
         prepare: checked parameters -> constants.
-        update: ``update(constants, memory, dt, values, Y, E, tracking, h, r)`` changes ``values``
-            (what is tuned) by one cycle of dt [s]. Of the cycle before: Y has len(E) rows of
-            len(values) numbers, row after row; ``tracking`` holds e, e' and the combined error s,
-            each for the c controlled coordinates; r is the deformed response of all coordinates,
-            NaN where not controlled. Of this cycle: h, the response error of the controlled ones.
-        tunes: ``coefficients``, ``A`` or ``weights``.
+        update: ``update(constants, memory, dt, values, seen)`` changes ``values`` (what is tuned)
+            by one cycle of dt [s]; ``seen``: :class:`Seen`.
+        tunes: ``coefficients``, ``A`` or ``weights``; empty: nothing, as of ``none``.
         memory: ``memory(constants, size, rows, n)`` -> number of state variables, for ``size``
             tuned values, ``rows`` of Y and n coordinates.
         reference: Y is taken at the reference velocity and the desired response (Slotine and Li)
@@ -46,23 +62,13 @@ class TuningLaw:
 
     parameters: tuple[Parameter, ...]
     prepare: Callable[[Values], tuple[float, ...]]
-    update: Callable[
-        [
-            Vector,
-            MutableVector,
-            float,
-            MutableVector,
-            Vector,
-            Vector,
-            Vector,
-            Vector,
-            Vector,
-        ],
-        None,
-    ]
+    update: Update
     tunes: str = COEFFICIENTS
     memory: Callable[[Vector, int, int, int], int] = lambda constants, size, rows, n: 0
     reference: bool = False
     desired: bool = False
     start: float = 0.0
     signals: tuple[str, ...] = ()
+
+
+TUNING_LAWS: Kind[TuningLaw] = Kind(TuningLaw, "tuning", called="tuning laws")

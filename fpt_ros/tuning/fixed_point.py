@@ -16,7 +16,7 @@ from fpt_ros.laws import MutableVector, Vector
 from fpt_ros.parameters import Parameter, Values, flag, integer, number
 from fpt_ros.transformations import TINY
 from fpt_ros.transformations.atanh import fixed_point, generator
-from fpt_ros.tuning import TuningLaw
+from fpt_ros.tuning import Seen, TuningLaw
 
 PARAMETERS = (
     Parameter("alpha", "rate of the tuning", 0.3, unit="1/s"),
@@ -43,17 +43,10 @@ def memory(constants: Vector, size: int, rows: int, n: int) -> int:
 
 
 def update(
-    constants: Vector,
-    memory: MutableVector,
-    dt: float,
-    values: MutableVector,
-    Y: Vector,
-    error: Vector,
-    tracking: Vector,
-    h: Vector,
-    r: Vector,
+    constants: Vector, memory: MutableVector, dt: float, values: MutableVector, seen: Seen
 ) -> None:
     """Inner iteration, then one Euler step of the coefficients."""
+    Y, error = seen.Y, seen.error
     alpha, A, attractive = constants[0], constants[1], constants[3]
     rows, size = len(error), len(values)
     w, M, e = 2, 2 + rows, 2 + rows + rows * rows

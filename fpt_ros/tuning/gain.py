@@ -11,7 +11,7 @@ import math
 
 from fpt_ros.laws import MutableVector, Vector
 from fpt_ros.parameters import Parameter, Values, number
-from fpt_ros.tuning import GAIN, TuningLaw
+from fpt_ros.tuning import GAIN, Seen, TuningLaw
 
 PARAMETERS = (
     Parameter("W", "width that A ||h|| is held at", 0.16, above=0.0),
@@ -32,17 +32,10 @@ def memory(constants: Vector, size: int, rows: int, n: int) -> int:
 
 
 def update(
-    constants: Vector,
-    memory: MutableVector,
-    dt: float,
-    values: MutableVector,
-    Y: Vector,
-    error: Vector,
-    tracking: Vector,
-    h: Vector,
-    r: Vector,
+    constants: Vector, memory: MutableVector, dt: float, values: MutableVector, seen: Seen
 ) -> None:
     """The gain of this cycle, from its response error."""
+    h = seen.h
     W, epsilon, beta = constants[0], constants[1], constants[2]
     square = 0.0
     for i in range(len(h)):

@@ -13,7 +13,7 @@ the estimated inertia out of the range in which the iteration contracts.
 
 from fpt_ros.laws import MutableVector, Vector
 from fpt_ros.parameters import Parameter, Values, number
-from fpt_ros.tuning import TuningLaw
+from fpt_ros.tuning import Seen, TuningLaw
 
 PARAMETERS = (
     Parameter("alpha", "rate at which the known part of the error decays", 1.0, unit="1/s"),
@@ -32,17 +32,10 @@ def memory(constants: Vector, size: int, rows: int, n: int) -> int:
 
 
 def update(
-    constants: Vector,
-    memory: MutableVector,
-    dt: float,
-    values: MutableVector,
-    Y: Vector,
-    error: Vector,
-    tracking: Vector,
-    h: Vector,
-    r: Vector,
+    constants: Vector, memory: MutableVector, dt: float, values: MutableVector, seen: Seen
 ) -> None:
     """One Euler step."""
+    Y, error = seen.Y, seen.error
     alpha, epsilon = constants[0], constants[1]
     rows, size = len(error), len(values)
     known, squares = rows * size, rows * size + rows

@@ -10,7 +10,7 @@ coefficient; Y is taken at the observed response.
 
 from fpt_ros.laws import MutableVector, Vector
 from fpt_ros.parameters import Parameter, Values, number
-from fpt_ros.tuning import TuningLaw
+from fpt_ros.tuning import Seen, TuningLaw
 
 PARAMETERS = (
     Parameter("R", "weight of the parameters' errors: slow where it is large", 5.0, above=0.0),
@@ -32,17 +32,10 @@ def prepare(values: Values) -> tuple[float, ...]:
 
 
 def update(
-    constants: Vector,
-    memory: MutableVector,
-    dt: float,
-    values: MutableVector,
-    Y: Vector,
-    error: Vector,
-    tracking: Vector,
-    h: Vector,
-    r: Vector,
+    constants: Vector, memory: MutableVector, dt: float, values: MutableVector, seen: Seen
 ) -> None:
     """(2.10) for one controlled coordinate, by an Euler step."""
+    Y, tracking = seen.Y, seen.tracking
     weighted = constants[0] * tracking[0] + constants[1] * tracking[1]
     factor = weighted / (values[0] * constants[2])
     for j in range(len(values)):

@@ -7,7 +7,7 @@ For a model of one row. m^ = 0 is absorbing: a disturbance that drags m^ there s
 
 from fpt_ros.laws import MutableVector, Vector
 from fpt_ros.parameters import Parameter, Values, number
-from fpt_ros.tuning import TuningLaw
+from fpt_ros.tuning import Seen, TuningLaw
 
 PARAMETERS = (
     Parameter("alpha", "rate at which the known part of the error decays", 1.0, unit="1/s"),
@@ -21,17 +21,10 @@ def prepare(values: Values) -> tuple[float, ...]:
 
 
 def update(
-    constants: Vector,
-    memory: MutableVector,
-    dt: float,
-    values: MutableVector,
-    Y: Vector,
-    error: Vector,
-    tracking: Vector,
-    h: Vector,
-    r: Vector,
+    constants: Vector, memory: MutableVector, dt: float, values: MutableVector, seen: Seen
 ) -> None:
     """(2.11) for the first row of Y, by an Euler step."""
+    Y, error = seen.Y, seen.error
     alpha, epsilon = constants[0], constants[1]
     square = epsilon
     for j in range(len(values)):

@@ -7,7 +7,7 @@ S = (d/dt + Lambda)^2 int e is the combined error, v = q' + S the reference velo
 
 from fpt_ros.laws import MutableVector, Vector
 from fpt_ros.parameters import Parameter, Values, number
-from fpt_ros.tuning import TuningLaw
+from fpt_ros.tuning import Seen, TuningLaw
 
 PARAMETERS = (Parameter("gamma", "diagonal of Gamma: slow where it is large", 0.02, above=0.0),)
 
@@ -18,17 +18,10 @@ def prepare(values: Values) -> tuple[float, ...]:
 
 
 def update(
-    constants: Vector,
-    memory: MutableVector,
-    dt: float,
-    values: MutableVector,
-    Y: Vector,
-    error: Vector,
-    tracking: Vector,
-    h: Vector,
-    r: Vector,
+    constants: Vector, memory: MutableVector, dt: float, values: MutableVector, seen: Seen
 ) -> None:
     """(2.20) by an Euler step; every coordinate is controlled, in the order of Y's rows."""
+    Y, error, tracking = seen.Y, seen.error, seen.tracking
     rows, size = len(error), len(values)
     for j in range(size):
         total = 0.0

@@ -11,7 +11,7 @@ import math
 
 from fpt_ros.laws import MutableVector, Vector
 from fpt_ros.parameters import Parameter, Values, integer, number
-from fpt_ros.tuning import WEIGHTS, TuningLaw
+from fpt_ros.tuning import WEIGHTS, Seen, TuningLaw
 
 PARAMETERS = (
     Parameter("delay", "cycles of the learning delay", 10, minimum=1, maximum=1000, live=False),
@@ -35,17 +35,10 @@ def memory(constants: Vector, size: int, rows: int, n: int) -> int:
 
 
 def update(
-    constants: Vector,
-    memory: MutableVector,
-    dt: float,
-    values: MutableVector,
-    Y: Vector,
-    error: Vector,
-    tracking: Vector,
-    h: Vector,
-    r: Vector,
+    constants: Vector, memory: MutableVector, dt: float, values: MutableVector, seen: Seen
 ) -> None:
     """One cycle, for controlled coordinates that stand in the order of r, or are all of them."""
+    r = seen.r
     delay, beta = int(constants[0]), constants[1]
     n, size = len(r), len(values)
     count = int(memory[size])

@@ -4,9 +4,9 @@ import math
 import numpy as np
 import pytest
 
-from fpt_ros import registry
 from fpt_ros.analysis import signals
 from fpt_ros.analysis.metrics import Row, baselines, comparison, rms, summary
+from fpt_ros.plants import PLANTS
 from fpt_ros.runs.run import Run
 
 NAN = float("nan")
@@ -210,7 +210,7 @@ def test_realised_response_stands_beside_the_command_that_caused_it(hand_made):
 
 def test_realised_response_is_the_exact_plants_answer_to_the_same_cycles_force(make):
     run = make("tora", duration=1.0)
-    plant = registry.plant("tora")
+    plant = PLANTS["tora"]
     exact = plant.coefficients([20.0, 30.0, 2.0, 20.0, 9.81])
     state, force = run.topics["joint_states"].vectors, run.topics["command"].vectors["effort"]
     _, realised = signals.realised_response(run, "q2")

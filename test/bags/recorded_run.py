@@ -3,13 +3,14 @@
 from pathlib import Path
 
 from fpt_ros.bags.recording import EngineRecording
+from fpt_ros.engine.buffers import Whole
 from fpt_ros.engine.engine import Engine
 from fpt_ros.experiments import experiment
 from fpt_ros.experiments.experiment import Experiment
 from fpt_ros.messages.frames import Frame
 from fpt_ros.messages.topics import Topic
 from fpt_ros.parameters import Value
-from fpt_ros.runs.run import Series
+from fpt_ros.runs.run import Series, frames
 
 INFO = {
     "experiment": "tora",
@@ -54,9 +55,8 @@ class Recorded:
 
 def record(directory: Path) -> Recorded:
     tora = experiment.load("tora", duration=1.0)
-    frames: list[tuple[Topic, Frame]] = []
-    engine = Engine(tora.loop())
-    with EngineRecording(directory, tora, engine) as recording:
-        engine.run(lambda cycle: recording.update())
-    engine.frames(0, lambda topic, frame: frames.append((topic, frame)))
-    return Recorded(tora, frames, engine.topics(), directory)
+    with EngineRecording(directory, tora) as recording:
+        whole = Whole()
+        Engine(tora.loop(), consumers=(whole, recording)).run()
+    topics = whole.topics()
+    return Recorded(tora, list(frames(topics)), topics, directory)

@@ -5,79 +5,98 @@ from importlib.metadata import EntryPoint
 import pytest
 
 from fpt_ros import registry
+from fpt_ros.compensators import COMPENSATORS
+from fpt_ros.denoising.streaming import FILTERS
+from fpt_ros.disturbances import DISTURBANCES
 from fpt_ros.errors import BadInput
-from fpt_ros.transformations import Transformation
+from fpt_ros.plants import MODELS, PLANTS
+from fpt_ros.relaxations import RELAXATIONS
+from fpt_ros.trajectories import TRAJECTORIES
+from fpt_ros.transformations import TRANSFORMATIONS, Transformation
+from fpt_ros.tuning import TUNING_LAWS
 
-KINDS = {
-    "plants": registry.plant,
-    "models": registry.model,
-    "trajectories": registry.trajectory,
-    "disturbances": registry.disturbance,
-    "transformations": registry.transformation,
-    "tuning": registry.tuning_law,
-    "filters": registry.streaming_filter,
-}
+KINDS = (
+    PLANTS,
+    MODELS,
+    TRAJECTORIES,
+    RELAXATIONS,
+    DISTURBANCES,
+    TRANSFORMATIONS,
+    TUNING_LAWS,
+    COMPENSATORS,
+    FILTERS,
+)
+
+
+def group_of(kind):
+    return kind.group
+
+
+every_kind = pytest.mark.parametrize("kind", KINDS, ids=group_of)
 
 
 @pytest.fixture
-def group(monkeypatch):
-    """Replace the entry points of the transformations."""
+def points(monkeypatch):
+    """Replace the entry points of the transformations: (name, value) each."""
 
-    def replace(**points):
-        made = {
-            name: EntryPoint(name, value, "fpt_ros.transformations")
-            for name, value in points.items()
-        }
-        monkeypatch.setattr(registry, "_group", lambda kind: made)
+    def replace(*pairs):
+        made = [EntryPoint(name, value, "fpt_ros.transformations") for name, value in pairs]
+        monkeypatch.setattr(registry, "entry_points", lambda group: made)
 
     registry._load.cache_clear()
+    registry._points.cache_clear()
     yield replace
     registry._load.cache_clear()
+    registry._points.cache_clear()
 
 
-@pytest.mark.parametrize("kind", KINDS)
-def test_every_registered_law_can_be_loaded(kind):
-    names = registry.names(kind)
-    assert names == tuple(sorted(names))
-    assert names
-    for name in names:
-        assert KINDS[kind](name) is KINDS[kind](name)
+@every_kind
+def test_every_registered_law_can_be_loaded_and_names_its_parameters_once(kind):
+    assert kind.names()
+    for name in kind.names():
+        parameters = [parameter.name for parameter in getattr(kind[name], "parameters", ())]
+        assert len(set(parameters)) == len(parameters)
 
 
-def test_parameters_of_all_laws_are_described():
-    for kind in ("plants", "models", "transformations", "tuning"):
-        for name in registry.names(kind):
-            parameters = KINDS[kind](name).parameters
-            assert len({parameter.name for parameter in parameters}) == len(parameters)
-            for parameter in parameters:
-                assert parameter.text, f"{kind} {name} {parameter.name}"
-                assert "\n" not in parameter.text
-
-
-@pytest.mark.parametrize("kind", KINDS)
+@every_kind
 def test_an_unknown_name_lists_what_there_is(kind):
     with pytest.raises(BadInput) as caught:
-        KINDS[kind]("magic")
-    for name in registry.names(kind):
+        kind["magic"]
+    for name in kind.names():
         assert name in str(caught.value)
     assert "\n" not in str(caught.value)
 
 
-def test_a_law_of_another_package(group):
-    group(mine="fpt_ros.transformations.sgfpt:SGFPT")
-    assert isinstance(registry.transformation("mine"), Transformation)
-    with pytest.raises(BadInput, match=r"'sgfpt' is none of the transformations: none, mine$"):
-        registry.transformation("sgfpt")
+def test_a_law_of_another_package(points):
+    points(("mine", "fpt_ros.transformations.sgfpt:SGFPT"))
+    assert isinstance(TRANSFORMATIONS["mine"], Transformation)
+    with pytest.raises(BadInput, match=r"'sgfpt' is none of the transformations: mine$"):
+        TRANSFORMATIONS["sgfpt"]
 
 
-def test_a_law_that_cannot_be_imported(group):
-    group(gone="fpt_ros.no_such_module:LAW", empty="fpt_ros.transformations.sgfpt:LAW")
+def test_a_law_that_cannot_be_imported(points):
+    points(("gone", "fpt_ros.no_such:LAW"), ("empty", "fpt_ros.transformations.sgfpt:LAW"))
     for name in ("gone", "empty"):
-        with pytest.raises(BadInput, match=f"'{name}' of the transformations cannot be loaded: "):
-            registry.transformation(name)
+        with pytest.raises(BadInput, match=f"'{name}' of the transformations cannot be loaded, "):
+            TRANSFORMATIONS[name]
 
 
-def test_nothing_registered_tells_what_to_do(group):
-    group()
+def test_an_entry_point_that_is_something_else(points):
+    points(("mine", "fpt_ros.transformations.sgfpt:prepare"))
+    with pytest.raises(BadInput, match=r"'mine' of the transformations is a function, not a Trans"):
+        TRANSFORMATIONS["mine"]
+
+
+def test_two_packages_with_one_name(points):
+    points(
+        ("mine", "fpt_ros.transformations.sgfpt:SGFPT"),
+        ("mine", "fpt_ros.transformations.rfpt:RFPT"),
+    )
+    with pytest.raises(BadInput, match=r"two packages register 'mine' .*sgfpt:SGFPT and .*rfpt:RF"):
+        TRANSFORMATIONS["mine"]
+
+
+def test_nothing_registered_tells_what_to_do(points):
+    points()
     with pytest.raises(BadInput, match="is fpt_ros installed"):
-        registry.transformation("sgfpt")
+        TRANSFORMATIONS["sgfpt"]

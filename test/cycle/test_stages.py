@@ -3,6 +3,7 @@
 import math
 from dataclasses import replace
 
+import engine_runs
 import numpy as np
 import pytest
 from engine_runs import stage_by_stage
@@ -32,10 +33,7 @@ def frames_of(loop):
 
 
 def frames_of_the_engine(loop):
-    seen, engine = [], Engine(loop)
-    engine.run()
-    engine.frames(0, lambda topic, frame: seen.append((topic.name, frame)))
-    return seen
+    return [(topic.name, frame) for topic, frame in engine_runs.frames_of(loop)]
 
 
 def estimate(cycle, response, q=(0.1, 0.2, -0.1), v=(0.0, 0.0, 0.0)):

@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 from scipy.interpolate import BSpline
 
-from fpt_ros import registry
+from fpt_ros.disturbances import DISTURBANCES
 
-FORCE = registry.disturbance("bspline").force
+FORCE = DISTURBANCES["bspline"].force
 POINTS = np.array([0, 30, 60, 20, -40, -70, -30, 10, 50, 40, -20, -50]) / 70.0
 
 
@@ -50,11 +50,11 @@ def test_value_slope_and_curvature_are_continuous_at_a_knot(knot):
 
 
 def test_none_is_no_force():
-    assert registry.disturbance("none").force((100.0, 1.0), [], 3.3, 1e-3, 1.0, 1.0) == 0.0
+    assert DISTURBANCES["none"].force((100.0, 1.0), [], 3.3, 1e-3, 1.0, 1.0) == 0.0
 
 
 def sine_noise(amplitude, frequency, noise, seed, cycles, dt=0.01):
-    law = registry.disturbance("sine_noise")
+    law = DISTURBANCES["sine_noise"]
     values = {
         "disturbance.amplitude": amplitude,
         "disturbance.frequency": frequency,

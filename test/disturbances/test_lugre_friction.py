@@ -7,10 +7,10 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from fpt_ros import registry
+from fpt_ros.disturbances import DISTURBANCES
 from fpt_ros.disturbances.lugre import PARAMETERS
 
-LUGRE = registry.disturbance("lugre")
+LUGRE = DISTURBANCES["lugre"]
 SIGMA0, SIGMA1, SIGMA2, COULOMB, STATIC, STRIBECK = 1e5, 300.0, 2.0, 40.0, 60.0, 0.05
 
 

@@ -160,7 +160,7 @@ def test_sign_of_the_gain_follows_the_response():
 def test_a_model_of_the_wrong_sign_in_the_map():
     deformer = load("siso_affine").loop().deformer
     for eigenvalue in (1.0, -1.0):
-        one = scalar_map(deformer.transformation, deformer.constants, eigenvalue)
+        one = scalar_map(deformer.transformation, deformer.constants.transformation, eigenvalue)
         assert one.slope == pytest.approx(F_SLOPE, rel=1e-12)
         assert one.step(1e-6) == pytest.approx(F_SLOPE * 1e-6, rel=1e-4)
         assert one.step(-1e-6) == pytest.approx(-F_SLOPE * 1e-6, rel=1e-4)
@@ -168,7 +168,7 @@ def test_a_model_of_the_wrong_sign_in_the_map():
 
 def test_two_cycles_return_and_their_multiplier_is_that_of_two_steps():
     deformer = load("siso_affine").loop().deformer
-    one = scalar_map(deformer.transformation, deformer.constants, 1.0)
+    one = scalar_map(deformer.transformation, deformer.constants.transformation, 1.0)
     for cycle in one.branch[50::40]:
         low = cycle.high - cycle.p * one.step(cycle.high)
         assert low == pytest.approx(cycle.low, rel=1e-9)

@@ -10,7 +10,7 @@ from fpt_ros.engine.engine import Engine
 from fpt_ros.experiments import experiment
 from fpt_ros.messages.frames import Desired, Tuning
 from fpt_ros.messages.topics import DESIRED, LOOP_TOPICS, TUNING
-from fpt_ros.runs.run import Collector, Run, describe
+from fpt_ros.runs.run import Collector, Run, describe, frames
 
 NAN = math.nan
 
@@ -33,11 +33,13 @@ def test_a_collected_run_has_every_frame_of_every_topic():
 
 
 def test_a_run_of_the_engine_has_every_frame_of_every_topic():
-    loaded, frames = experiment.load("vdp_rfpt", duration=0.02), []
+    loaded = experiment.load("vdp_rfpt", duration=0.02)
     engine = Engine(loaded.loop())
     engine.run()
-    engine.frames(0, lambda topic, frame: frames.append((topic, frame)))
-    check(Run(describe(loaded, "in_process", ""), loaded.nodes, engine.topics()), frames)
+    check(
+        Run(describe(loaded, "in_process", ""), loaded.nodes, engine.topics()),
+        list(frames(engine.topics())),
+    )
 
 
 def check(run, frames):

@@ -15,6 +15,9 @@ from typing import Any
 
 import numpy as np
 
+# An editable installation would find modules of its own tree that the tree asked for lacks.
+sys.meta_path[:] = [each for each in sys.meta_path if "editable" not in f"{each}".lower()]
+
 # --- adapters: the newest name first -----------------------------------------------------------
 
 EXPERIMENT = ("fpt_ros.experiments.experiment", "fpt_ros.loop.experiment")

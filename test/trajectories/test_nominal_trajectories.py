@@ -8,15 +8,14 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.interpolate import CubicSpline
 
-from fpt_ros import registry
 from fpt_ros.errors import BadInput
-from fpt_ros.trajectories import spline
+from fpt_ros.trajectories import TRAJECTORIES, spline
 
 TIMES = st.floats(0.0, 50.0)
 
 
 def nominal(name, amplitude, frequency, t, **own):
-    trajectory, n = registry.trajectory(name), len(amplitude)
+    trajectory, n = TRAJECTORIES[name], len(amplitude)
     values = {parameter.name: parameter.default for parameter in trajectory.parameters}
     values |= {"amplitude": amplitude, "frequency": frequency, **own}
     q, v, a = [math.nan] * n, [math.nan] * n, [math.nan] * n
@@ -27,7 +26,7 @@ def nominal(name, amplitude, frequency, t, **own):
 
 def test_all_registered_trajectories_are_tested_here():
     here = {"constant", "cosines", "sine", "spline"}
-    assert set(registry.names("trajectories")) == here | {"fitzhugh_nagumo"}  # in a file of its own
+    assert set(TRAJECTORIES.names()) == here | {"fitzhugh_nagumo"}  # in a file of its own
 
 
 @settings(deadline=None)

@@ -17,7 +17,7 @@ vector = st.lists(number, min_size=2, max_size=2)
 def deform(r, h, **given_values):
     constants = RFPT.prepare(resolve(RFPT.parameters, given_values, "test"))
     out = [math.nan] * len(r)
-    RFPT.deform(constants, r, h, out)
+    RFPT.deform(constants, r, h, h, [0.0] * len(r), out)
     return out
 
 

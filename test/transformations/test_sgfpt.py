@@ -30,7 +30,7 @@ def transformation(**given_values):
 
     def deform(r, h):
         out = [math.nan] * len(r)
-        SGFPT.deform(constants, r, h, out)
+        SGFPT.deform(constants, r, h, h, [0.0] * len(r), out)
         return out
 
     return deform

@@ -7,12 +7,11 @@ import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
-from fpt_ros import registry
 from fpt_ros.errors import BadInput
 from fpt_ros.parameters import resolve
-from fpt_ros.transformations import atanh, stretched
+from fpt_ros.transformations import TRANSFORMATIONS, atanh, stretched
 
-NAMES = registry.names("transformations")
+NAMES = tuple(name for name in TRANSFORMATIONS.names() if name != "none")
 FORMS = ["norm", "signed"]
 
 vector = st.lists(st.floats(-10.0, 10.0), min_size=3, max_size=3)
@@ -26,7 +25,7 @@ SIGMOIDS = {
 
 
 def made(name, **values):
-    transformation = registry.transformation(name)
+    transformation = TRANSFORMATIONS[name]
     return transformation, transformation.prepare(
         resolve(transformation.parameters, values, "test")
     )
@@ -35,7 +34,7 @@ def made(name, **values):
 def deform(name, r, h, **values):
     transformation, constants = made(name, **values)
     out = [math.nan] * len(r)
-    transformation.deform(constants, r, h, out)
+    transformation.deform(constants, r, h, h, [0.0] * len(r), out)
     return out
 
 

@@ -7,6 +7,7 @@ from hypothesis import strategies as st
 
 from fpt_ros.errors import BadInput
 from fpt_ros.parameters import resolve
+from fpt_ros.tuning import Seen
 from fpt_ros.tuning.projection import PROJECTION
 
 row = st.lists(st.floats(-10.0, 10.0), min_size=6, max_size=6)
@@ -15,7 +16,7 @@ row = st.lists(st.floats(-10.0, 10.0), min_size=6, max_size=6)
 def rate(Y, error, **given_values):
     constants = PROJECTION.prepare(resolve(PROJECTION.parameters, given_values, "test"))
     values = [0.0] * len(Y)
-    PROJECTION.update(constants, [], 1.0, values, list(Y), [error], [], [], [])
+    PROJECTION.update(constants, [], 1.0, values, Seen(list(Y), [error], [], [], []))
     return np.array(values)
 
 

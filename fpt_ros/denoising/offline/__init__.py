@@ -11,9 +11,9 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from fpt_ros import registry
 from fpt_ros.errors import BadInput
 from fpt_ros.parameters import Parameter, Value, Values, resolve
+from fpt_ros.registry import Kind
 
 Signal = NDArray[np.float64]
 Mask = NDArray[np.bool_]
@@ -61,6 +61,9 @@ class Result:
     info: Info = field(default_factory=dict)
 
 
+DENOISERS: Kind[Method] = Kind(Method, "denoisers")
+
+
 def read(y: ArrayLike) -> Signal:
     """``y`` as a new array of floats of one dimension.
 
@@ -94,7 +97,7 @@ def denoise(y: ArrayLike, method: str = DEFAULT, **options: Value) -> Result:
 
     Args:
         y: equispaced samples, shape (n,), any unit.
-        method: one of ``registry.names("denoisers")``.
+        method: one of ``DENOISERS.names()``.
         options: parameters of the method, by name.
 
     Raises:
@@ -103,7 +106,7 @@ def denoise(y: ArrayLike, method: str = DEFAULT, **options: Value) -> Result:
     from fpt_ros.denoising.offline.healing import heal
     from fpt_ros.denoising.offline.noise import noise_sigma
 
-    chosen = registry.denoiser(method)
+    chosen = DENOISERS[method]
     values = resolve(chosen.parameters, options, method)
     signal = read(y)
     present = ~np.isnan(signal)

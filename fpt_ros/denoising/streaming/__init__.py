@@ -5,8 +5,13 @@ from dataclasses import dataclass
 
 from fpt_ros.laws import MutableVector, Vector
 from fpt_ros.parameters import Parameter, Values
+from fpt_ros.registry import Kind
 
-UPDATE = "vvfvvvvv-"
+Update = Callable[
+    [Vector, MutableVector, float, Vector, Vector, MutableVector, MutableVector, MutableVector],
+    None,
+]
+"""(constants, state, dt, q, v, out_q, out_v, out_response)"""
 
 ORDER = Parameter(
     "order",
@@ -36,17 +41,8 @@ class Filter:
     prepare: Callable[[Values, int, float], tuple[float, ...]]
     state_size: Callable[[Vector, int], int]
     start: Callable[[Vector, MutableVector, Vector, Vector], None]
-    update: Callable[
-        [
-            Vector,
-            MutableVector,
-            float,
-            Vector,
-            Vector,
-            MutableVector,
-            MutableVector,
-            MutableVector,
-        ],
-        None,
-    ]
+    update: Update
     parameters: tuple[Parameter, ...] = ()
+
+
+FILTERS: Kind[Filter] = Kind(Filter, "filters")

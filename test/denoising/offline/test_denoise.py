@@ -5,9 +5,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from fpt_ros import registry
 from fpt_ros.denoising import signals
-from fpt_ros.denoising.offline import auto, denoise
+from fpt_ros.denoising.offline import DENOISERS, auto, denoise
 from fpt_ros.errors import BadInput
 
 MINE = (
@@ -29,7 +28,7 @@ def noisy(name, seed=0, n=512, rho=0.5):
 
 
 def test_all_are_registered():
-    assert set(MINE) <= set(registry.names("denoisers"))
+    assert set(MINE) <= set(DENOISERS.names())
 
 
 @pytest.mark.parametrize(

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from filter_runs import noise, run, two_sines
 
-from fpt_ros.denoising.streaming import UPDATE
+from fpt_ros.denoising.streaming import Update
 from fpt_ros.denoising.streaming.adaptive_savgol import ADAPTIVE_SAVGOL
 from fpt_ros.denoising.streaming.kalman_bank import KALMAN_BANK
 from fpt_ros.denoising.streaming.savgol import SAVGOL
@@ -38,7 +38,7 @@ def mapped_vector(values):
 @pytest.mark.parametrize("name", LAWS)
 def test_same_bits_in_python_and_compiled(name):
     law, given = LAWS[name]
-    machine = compiled.law(law.update, UPDATE)
+    machine = compiled.law(law.update, Update)
     python = run(law, rough(), **given)
     arrays = run(law, rough(), vector=lambda x: np.array(x, dtype=float), update=machine, **given)
     mapped = run(law, rough(), vector=mapped_vector, **given)

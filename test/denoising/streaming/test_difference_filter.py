@@ -6,9 +6,9 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from fpt_ros import registry
+from fpt_ros.denoising.streaming import FILTERS
 
-FILTER = registry.streaming_filter("none")
+FILTER = FILTERS["none"]
 SECOND_ORDER, FIRST_ORDER, ZEROTH_ORDER = (
     FILTER.prepare({"order": order}, 2, 1e-3) for order in (2, 1, 0)
 )

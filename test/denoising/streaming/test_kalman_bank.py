@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from filter_runs import DT, bang_bang, constants_of, noise, rms, run, two_sines
 
-from fpt_ros.denoising.streaming import UPDATE
+from fpt_ros.denoising.streaming import Update
 from fpt_ros.denoising.streaming.kalman_bank import KALMAN_BANK, steady_gains
 from fpt_ros.engine import compiled
 from fpt_ros.errors import BadInput
@@ -135,7 +135,7 @@ def test_figures_of_section_3(signal, velocity, response):
     """10 s, the first dropped, 10 seeds; of bang-bang it says neither size nor period."""
     clean = signal(10_000)
     q = np.column_stack([clean[0] + noise(10_000, seed) for seed in range(10)])
-    machine = compiled.law(KALMAN_BANK.update, UPDATE)
+    machine = compiled.law(KALMAN_BANK.update, Update)
     out = run(KALMAN_BANK, q, vector=np.array, update=machine)[1000:]
     error = [np.mean([rms(out[:, i, s] - clean[i][1000:]) for s in range(10)]) for i in (1, 2)]
     assert error[0] <= velocity
