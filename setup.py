@@ -1,6 +1,6 @@
 """ament_python package: built by colcon on a stock Jazzy, installed by pip where there is none.
 
-Versions of all packages are in requirements.lock (make lock); the version of this one is in package.xml.
+The version is in package.xml; those of all packages it needs are in requirements.lock (make lock).
 """
 
 from glob import glob
@@ -15,7 +15,8 @@ OFFLINE = ["pandas", "scikit-fuzzy", "matplotlib"]
 CLUSTER = ["dask", "distributed"]
 PEERS = ["scikit-image", "statsmodels"]
 SWEEP = ["optuna>=5", "pyarrow", "matplotlib"]
-ROS = [  # Jazzy for machines without it: wheels of the real thing (x86-64 Linux, CPython 3.10 to 3.14)
+# Jazzy for machines without it: wheels of the real thing (x86-64 Linux, CPython 3.10 to 3.14)
+ROS = [
     "ros-jazzy-rclpy[fastrtps]",
     "ros-jazzy-std-msgs",
     "ros-jazzy-sensor-msgs",

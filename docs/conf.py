@@ -1,6 +1,6 @@
 """The site: Sphinx, because the docstrings are written for it (:func: roles, Google's sections).
 
-Pages are Markdown (myst). Commands and API are made by ``site_pages.py`` from the code at each build.
+Pages are Markdown (myst). ``site_pages.py`` makes commands and API from the code at each build.
 """
 
 import sys

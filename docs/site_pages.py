@@ -1,6 +1,6 @@
 """Pages that are made at each build: the commands and the API, from the code itself.
 
-They are written to ``docs/reference/`` (not under version control), before Sphinx reads its sources.
+They are written to ``docs/reference/``, out of version control, before Sphinx reads its sources.
 """
 
 from pathlib import Path
