@@ -16,7 +16,7 @@ sys.meta_path.insert(0, Blocker())
 """
 
 
-def python_without(modules, folder, *arguments, timeout=120):
+def python_without(modules, folder, *arguments, timeout=240):
     """Run ``python ARGUMENTS``; neither it nor its children find the modules."""
     (folder / "sitecustomize.py").write_text(BLOCKER.format(blocked=set(modules)))
     return subprocess.run(
