@@ -11,7 +11,7 @@ from setuptools import find_packages, setup
 VERSION = ElementTree.parse("package.xml").findtext("version")
 
 FIGURES = ["matplotlib", "jinja2"]
-OFFLINE = ["pandas", "scikit-fuzzy", "matplotlib"]
+OFFLINE = ["scikit-fuzzy", "pyarrow", "matplotlib"]
 CLUSTER = ["dask", "distributed"]
 PEERS = ["scikit-image", "statsmodels"]
 SWEEP = ["optuna>=5", "pyarrow", "matplotlib"]
@@ -103,22 +103,27 @@ setup(
         "fpt_ros.plants": [
             "cart_beam_hamper = fpt_ros.plants.cart_beam_hamper:PLANT",
             "coupled_masses = fpt_ros.plants.coupled_masses:PLANT",
+            "duffing = fpt_ros.plants.duffing:PLANT",
             "fitzhugh_nagumo = fpt_ros.plants.fitzhugh_nagumo:PLANT",
             "kapitza = fpt_ros.plants.kapitza:PLANT",
+            "lorenz = fpt_ros.plants.lorenz:PLANT",
             "mimo_affine = fpt_ros.plants.mimo_affine:PLANT",
             "siso_affine = fpt_ros.plants.siso_affine:PLANT",
             "spherical_pendulum = fpt_ros.plants.spherical_pendulum:PLANT",
             "swing = fpt_ros.plants.swing:PLANT",
             "tora = fpt_ros.plants.tora:PLANT",
             "van_der_pol = fpt_ros.plants.van_der_pol:PLANT",
+            "van_der_pol_second_order = fpt_ros.plants.van_der_pol_second_order:PLANT",
         ],
         "fpt_ros.models": [
             "cart_beam_hamper = fpt_ros.plants.cart_beam_hamper:MODEL",
             "coupled_masses = fpt_ros.plants.coupled_masses:MODEL",
+            "duffing = fpt_ros.plants.duffing:MODEL",
             "fitzhugh_nagumo = fpt_ros.plants.fitzhugh_nagumo:MODEL",
             "kapitza = fpt_ros.plants.kapitza:LITERAL",
             "kapitza_listing = fpt_ros.plants.kapitza:LISTING",
             "kapitza_with_gravity = fpt_ros.plants.kapitza:WITH_GRAVITY",
+            "lorenz = fpt_ros.plants.lorenz:MODEL",
             "mimo_affine = fpt_ros.plants.mimo_affine:MODEL",
             "siso_affine = fpt_ros.plants.siso_affine:MODEL",
             "spherical_affine = fpt_ros.plants.spherical_pendulum:AFFINE_MODEL",
@@ -127,6 +132,7 @@ setup(
             "swing = fpt_ros.plants.swing:MODEL",
             "tora = fpt_ros.plants.tora:MODEL",
             "van_der_pol = fpt_ros.plants.van_der_pol:MODEL",
+            "van_der_pol_second_order = fpt_ros.plants.van_der_pol_second_order:MODEL",
         ],
         "fpt_ros.trajectories": [
             "constant = fpt_ros.trajectories.constant:CONSTANT",
@@ -140,6 +146,8 @@ setup(
             "pi = fpt_ros.relaxations.pi:PI",
             "pid = fpt_ros.relaxations.pid:PID",
             "value = fpt_ros.relaxations.value:VALUE",
+            "vssm = fpt_ros.relaxations.vssm:VSSM",
+            "vssm_first_order = fpt_ros.relaxations.vssm_first_order:VSSM_FIRST_ORDER",
         ],
         "fpt_ros.compensators": [
             "disturbance_observer = fpt_ros.compensators.disturbance_observer:DISTURBANCE_OBSERVER",

@@ -17,7 +17,7 @@ from typing import Any
 import numpy as np
 from measure import alternate, arguments, median, show
 
-from fpt_ros.analysis.metrics import rms
+from fpt_ros.analysis.sizes import rms
 from fpt_ros.engine.engine import Engine
 from fpt_ros.experiments.experiment import load
 

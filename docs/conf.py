@@ -21,6 +21,7 @@ myst_heading_anchors = 3
 
 autodoc_typehints_format = "short"
 napoleon_use_ivar = True  # fields are listed once
+suppress_warnings = ["ref.python"]  # a field's name that several records have
 nitpick_ignore_regex = [("py:class", ".*"), ("py:obj", ".*")]  # types of other libraries
 
 html_theme = "furo"

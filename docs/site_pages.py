@@ -21,7 +21,30 @@ GUIDES = {"denoise": "Denoise a file", "filters": "Filters in the loop"}
 def setup(sphinx: Any) -> dict[str, bool]:
     """Sphinx calls this once."""
     sphinx.connect("builder-inited", lambda _: write_pages())
+    sphinx.connect("autodoc-process-docstring", escape_bars)
+    sphinx.connect("missing-reference", neighbour)
     return {"parallel_read_safe": True}
+
+
+def escape_bars(sphinx: Any, kind: str, name: str, of: Any, options: Any, lines: list[str]) -> None:
+    """An absolute value, ``|x|``, is none of Sphinx's substitutions."""
+    lines[:] = [
+        "``".join(
+            part if at % 2 else part.replace("|", "\\|") for at, part in enumerate(line.split("``"))
+        )
+        for line in lines
+    ]
+
+
+def neighbour(sphinx: Any, environment: Any, node: Any, content: Any) -> Any:
+    """Find ``:mod:`healing``` or ``:func:`style.settings``` in the folder of the module itself."""
+    if node.get("refdomain") != "py" or node["reftype"] == "class":
+        return None
+    folder = node.get("py:module", "").rpartition(".")[0]
+    target = f"{folder}.{node['reftarget']}"
+    return environment.domains["py"].resolve_xref(
+        environment, node["refdoc"], sphinx.builder, node["reftype"], target, node, content
+    )
 
 
 def write_pages() -> None:

@@ -11,8 +11,8 @@ from fpt_ros.errors import BadInput
 MODULES = {
     "analysis": ("matplotlib", "jinja2"),
     "sweep": ("matplotlib", "pyarrow", "optuna"),
-    "denoise": ("matplotlib", "pandas", "skfuzzy"),
-    "thesis": ("matplotlib", "jinja2", "pandas", "skfuzzy"),
+    "denoise": ("matplotlib", "pyarrow", "skfuzzy"),
+    "thesis": ("matplotlib", "jinja2", "pyarrow", "skfuzzy"),
     "cluster": ("dask", "distributed"),
     "peers": ("skimage", "statsmodels"),
 }

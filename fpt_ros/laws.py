@@ -13,7 +13,7 @@ The aliases below are the only types that a law's signature may hold, beside num
 
 import math
 from collections.abc import Callable, MutableSequence, Sequence
-from typing import Any, Protocol, TypeVar
+from typing import Any, Protocol, TypeVar, overload
 
 Vector = Sequence[float]
 """Numbers that are only read: one per coordinate, or a law's constants in their order."""
@@ -28,11 +28,14 @@ Indices = Sequence[int]
 class Matrix(Protocol):
     """Rows of numbers: ``m[row, column]`` is read and written, ``m[row]`` is a vector."""
 
-    def __getitem__(self, at: Any, /) -> Any:
-        """A number, or a row."""
+    @overload
+    def __getitem__(self, at: tuple[int, int], /) -> float: ...
 
-    def __setitem__(self, at: Any, value: Any, /) -> None:
-        """Write a number, or a row."""
+    @overload
+    def __getitem__(self, at: int, /) -> MutableVector: ...
+
+    def __setitem__(self, at: tuple[int, int], value: float, /) -> None:
+        """Write a number."""
 
     def __len__(self) -> int:
         """Number of rows."""

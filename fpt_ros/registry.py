@@ -70,13 +70,19 @@ def _points(group: str) -> dict[str, EntryPoint]:
     return {name: point for (name, _), point in points.items()}
 
 
+def _none_first(name: str) -> tuple[bool, str]:
+    return name != "none", name
+
+
 @cache
 def _load(group: str, called: str, name: str) -> object:
     points = _points(group)
     if not points:
         raise BadInput(f"no {called} are registered: is fpt_ros installed? run make setup")
     if name not in points:
-        raise BadInput(f"'{name}' is none of the {called}: {', '.join(sorted(points))}")
+        raise BadInput(
+            f"'{name}' is none of the {called}: {', '.join(sorted(points, key=_none_first))}"
+        )
     try:
         return points[name].load()
     except SyntaxError as error:

@@ -5,7 +5,7 @@ import numpy as np
 from fpt_ros.cycle.run import Run
 from fpt_ros.engine.engine import Engine
 from fpt_ros.experiments import experiment
-from fpt_ros.runs.run import frames
+from fpt_ros.runs.chunks import frames
 
 
 def topics_of(name, variant="adaptive", settings=(), duration=None, seed=None):

@@ -12,6 +12,7 @@ from matplotlib.figure import Figure
 
 from fpt_ros.analysis import latency_figure, motion_figures, response_figures, style
 from fpt_ros.analysis.captions import CAPTIONS, thesis_figures
+from fpt_ros.analysis.outline import outline
 from fpt_ros.analysis.panels import Panels
 from fpt_ros.runs.run import Run
 
@@ -47,6 +48,7 @@ def charts(runs: Sequence[Run], only: Sequence[str] = ()) -> dict[str, Chart]:
         anything in them.
     """
     found = {}
+    runs = [outline(run) for run in runs]
     with style.settings():
         for name, build in _BUILDERS.items():
             if only and name not in only:

@@ -1,8 +1,11 @@
 """What runs are called in headings and legends."""
 
 from collections.abc import Callable, Sequence
+from typing import TypeVar
 
 from fpt_ros.runs.run import Run
+
+R = TypeVar("R", bound=Run)
 
 
 def labels_of(runs: Sequence[tuple[str, str]]) -> list[str]:
@@ -22,6 +25,6 @@ def run_labels(runs: Sequence[Run]) -> list[str]:
     return labels_of([(r.info.get("experiment", ""), r.info.get("variant", "")) for r in runs])
 
 
-def all_names(runs: Sequence[Run], names: Callable[[Run], Sequence[str]]) -> list[str]:
+def all_names(runs: Sequence[R], names: Callable[[R], Sequence[str]]) -> list[str]:
     """The names of all runs, each once, in the order in which they are met."""
     return list(dict.fromkeys(name for run in runs for name in names(run)))

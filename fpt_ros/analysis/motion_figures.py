@@ -2,9 +2,10 @@
 
 from collections.abc import Sequence
 
-from fpt_ros.analysis import metrics, signals, style
+from fpt_ros.analysis import motions, signals, style
 from fpt_ros.analysis.labels import all_names
 from fpt_ros.analysis.legends import colour_of, followed
+from fpt_ros.analysis.outline import POSITION, outline
 from fpt_ros.analysis.panels import Panels
 from fpt_ros.runs.run import Run
 
@@ -15,8 +16,8 @@ def tracking(runs: Sequence[Run]) -> Panels | None:
     if not rows:
         return None
     panels = Panels.of(runs, rows)
-    for name, column, run in panels.cells(runs):
-        motion = signals.motion(run, name)
+    for name, column, run in panels.cells([*map(outline, runs)]):
+        motion = run.motions.get(name, motions.NONE)
         axes = panels.take(name, column, motion.nominal)
         if axes is not None:
             style.draw(axes, motion.time, motion.nominal, style.BAND)
@@ -32,19 +33,18 @@ def tracking_error(runs: Sequence[Run]) -> Panels | None:
     if not rows:
         return None
     panels = Panels.of(runs, rows)
-    for name, column, run in panels.cells(runs):
-        motion = signals.motion(run, name)
+    for name, column, run in panels.cells([*map(outline, runs)]):
+        motion = run.motions.get(name, motions.NONE)
         axes = panels.take(name, column, motion.error)
         if axes is None:
             continue
         unit = signals.unit(run, name)
-        late = signals.settled(run, motion.time)
         if signals.settle_time(run) > 0.0:
             end = min(signals.settle_time(run), float(motion.time[-1]))
             axes.axvspan(0.0, end, color="#f3f4f6", zorder=0)
         axes.axhline(0.0, color=style.INK, linewidth=0.7, zorder=1)
         style.draw(axes, motion.time, motion.error, style.thin(colour_of(run, name)))
-        rms = metrics.rms(motion.error[late])
+        rms = run.settled_rms[name]
         if rms is not None:
             panels.note(name, column, f"settled rms {rms:.3g} {unit}".rstrip())
         symbol = style.symbol(name)
@@ -59,8 +59,8 @@ def phase_trajectories(runs: Sequence[Run]) -> Panels | None:
     if not rows:
         return None
     panels = Panels.of(runs, rows, 3.2, time=False)
-    for name, column, run in panels.cells(runs):
-        motion = signals.motion(run, name)
+    for name, column, run in panels.cells([*map(outline, runs)]):
+        motion = run.motions.get(name, motions.NONE)
         axes = panels.take(name, column, motion.nominal)
         if axes is not None:
             nominal, unit = style.BAND, signals.unit(run, name)
@@ -80,12 +80,12 @@ def uncontrolled(runs: Sequence[Run]) -> Panels | None:
     if not rows:
         return None
     panels = Panels.of(runs, rows)
-    for name, column, run in panels.cells(runs):
+    for name, column, run in panels.cells([*map(outline, runs)]):
         given = name in signals.uncontrolled(run)
-        time, position = signals.topic(run, "joint_states", "position", name)
-        axes = panels.take(name, column, position if given else position[:0])
+        curve = run.curve(POSITION, name)
+        axes = panels.take(name, column, curve.values if given else curve.values[:0])
         if axes is not None:
-            style.draw(axes, time, position, style.thin(colour_of(run, name)))
+            style.draw(axes, curve.time, curve.values, style.thin(colour_of(run, name)))
             axes.set_ylabel(style.label(style.symbol(name), signals.unit(run, name)))
-            panels.scale(name, column, position)
+            panels.scale(name, column, curve.values)
     return panels.finish()

@@ -1,7 +1,7 @@
 """A grid of panels: a row a quantity, a column a run, and one scale a row for runs of one plant."""
 
 from collections.abc import Iterator, Sequence
-from typing import Any
+from typing import Any, TypeVar
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -13,6 +13,8 @@ from fpt_ros.analysis import signals, style
 from fpt_ros.analysis.labels import run_labels
 from fpt_ros.analysis.legends import Entry
 from fpt_ros.runs.run import Array, Run
+
+R = TypeVar("R", bound=Run)
 
 ABREAST = 3
 """Panels beside each other where there is one run only and its panels are small."""
@@ -75,7 +77,7 @@ class Panels:
         groups = [str(signals.parameter(run, "plant_simulator", "plant")) for run in runs]
         return cls(rows, labels, groups, height, time)
 
-    def cells(self, runs: Sequence[Run]) -> Iterator[tuple[str, int, Run]]:
+    def cells(self, runs: Sequence[R]) -> Iterator[tuple[str, int, R]]:
         """Every (row, column, run)."""
         for name in self._rows:
             for column, run in enumerate(runs):

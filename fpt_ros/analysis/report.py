@@ -8,13 +8,13 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from fpt_ros.analysis import pages, signals, style
+from fpt_ros.analysis.comparison import baselines, comparison
 from fpt_ros.analysis.figures import Chart, charts
 from fpt_ros.analysis.labels import run_labels
-from fpt_ros.analysis.metrics import baselines, comparison, summary
+from fpt_ros.analysis.outline import Outline, with_numbers
 from fpt_ros.analysis.tables import content
 from fpt_ros.analysis.whole_files import write_whole
 from fpt_ros.errors import BadInput
-from fpt_ros.messages.frames import SECOND
 from fpt_ros.parameters import Value
 from fpt_ros.runs.run import Run
 
@@ -59,15 +59,16 @@ def write_report(runs: Sequence[Run], directory: Path) -> Path:
     Raises:
         BadInput: the directory cannot be written.
     """
-    found = charts(runs)
+    outlines = [with_numbers(run) for run in runs]
+    found = charts(outlines)
     pictures = {name: _rendered(chart, "svg") for name, chart in found.items()}
-    page = _page(runs, found, pictures)
+    page = _page(outlines, found, pictures)
     try:
         (directory / "figures").mkdir(parents=True, exist_ok=True)
         for name, chart in found.items():
             write_whole(directory / "figures" / f"{name}.svg", pictures[name])
             write_whole(directory / "figures" / f"{name}.png", _rendered(chart, "png"))
-        write_whole(directory / "summary.json", _numbers(runs, found).encode())
+        write_whole(directory / "summary.json", _numbers(outlines, found).encode())
         write_whole(directory / "index.html", page.encode())
     except OSError as error:
         reason = error.strerror or str(error)
@@ -86,8 +87,8 @@ def _rendered(chart: Chart, kind: str) -> bytes:
     return buffer.getvalue()
 
 
-def _numbers(runs: Sequence[Run], found: dict[str, Chart]) -> str:
-    summaries = [summary(run) for run in runs]
+def _numbers(runs: Sequence[Outline], found: dict[str, Chart]) -> str:
+    summaries = [run.numbers or {} for run in runs]
     rows = [
         {
             "coordinate": row.coordinate or None,
@@ -109,7 +110,7 @@ def _numbers(runs: Sequence[Run], found: dict[str, Chart]) -> str:
     return json.dumps(whole, indent=2, allow_nan=False, ensure_ascii=False) + "\n"
 
 
-def _page(runs: Sequence[Run], found: dict[str, Chart], pictures: dict[str, bytes]) -> str:
+def _page(runs: Sequence[Outline], found: dict[str, Chart], pictures: dict[str, bytes]) -> str:
     encoded = {name: base64.b64encode(data).decode() for name, data in pictures.items()}
     return pages.render(
         TEMPLATE,
@@ -133,19 +134,17 @@ def _title(runs: Sequence[Run]) -> str:
     return " and ".join(dict.fromkeys(titles))
 
 
-def _about(run: Run, label: str) -> About:
+def _about(run: Outline, label: str) -> About:
     shows = str(signals.parameter(run, "recorder", "shows") or "")
     thesis = str(signals.parameter(run, "recorder", "thesis") or "")
-    one = summary(run)
-    states = run.topics.get("joint_states")
-    last = int(states.stamps[-1]) - signals.origin(run) if states and len(states.stamps) else 0
+    one = run.numbers or {}
     complete = bool(one["complete"])
     late = run.latency
     reason = str(one["reason"])
     if complete:
         ending = "complete" + (f" ({reason})" if reason else "")
     else:
-        ending = f"not complete, ends at {last / SECOND:g} s: {reason or 'reason not known'}"
+        ending = f"not complete, ends at {run.end:g} s: {reason or 'reason not known'}"
     facts = (
         f"{one['cycles']} cycles of {one['dt']} s",
         f"settled from {one['settle_time']:g} s on",

@@ -7,57 +7,66 @@ import numpy as np
 from fpt_ros.analysis import signals, style
 from fpt_ros.analysis.labels import all_names
 from fpt_ros.analysis.legends import colour_of, realised
+from fpt_ros.analysis.outline import (
+    DEFORMED,
+    DESIRED,
+    EFFORT,
+    REALISED,
+    TUNED,
+    Curve,
+    Outline,
+    outline,
+)
 from fpt_ros.analysis.panels import Panels
+from fpt_ros.analysis.thinner import Window
 from fpt_ros.cycle.tuned import FACTOR
 from fpt_ros.runs.run import Array, Run
-
-_Window = tuple[float, float]
-"""Excerpt of a run, first and last time [s]."""
 
 
 def responses(runs: Sequence[Run]) -> Panels | None:
     """Desired, deformed and realised responses over time (Fig. 3.24)."""
-    return _responses(runs, [None] * len(runs))
+    return _responses([outline(run) for run in runs], [None] * len(runs))
 
 
 def responses_zoom(runs: Sequence[Run]) -> Panels | None:
     """The same for half a period about the settle time (Fig. 3.25)."""
-    return _responses(runs, [_excerpt(run) for run in runs])
+    outlines = [outline(run) for run in runs]
+    return _responses(outlines, [_excerpt(run) for run in outlines])
 
 
-def _excerpt(run: Run) -> _Window:
-    """Half a period of the nominal motion about the settle time, inside the run [s]."""
-    motions = [signals.motion(run, name) for name in signals.controlled(run)]
-    end = max((float(m.time[-1]) for m in motions if len(m.time)), default=0.0)
-    period = signals.period(motions)
-    width = min(end, period / 2 if period is not None else end / 4)
+def _excerpt(run: Outline) -> Window:
+    """Half a period of the nominal motion about the settle time, inside the run."""
+    end = max((float(m.time[-1]) for m in run.motions.values() if len(m.time)), default=0.0)
+    width = min(end, run.period / 2 if run.period is not None else end / 4)
     start = min(max(signals.settle_time(run) - width / 2, 0.0), end - width)
-    return start, start + width
+    return Window(start, start + width)
 
 
-def _responses(runs: Sequence[Run], windows: Sequence[_Window | None]) -> Panels | None:
+def _responses(runs: Sequence[Outline], windows: Sequence[Window | None]) -> Panels | None:
     rows = all_names(runs, signals.controlled)
     if not rows:
         return None
     panels = Panels.of(runs, rows, 2.7)
     for name, column, run in panels.cells(runs):
         window = windows[column]
-        desired = _cut(signals.topic(run, "desired", "accelerations", name), window)
-        deformed = _cut(signals.topic(run, "command", "accelerations", name), window)
-        observed = _cut(signals.realised_response(run, name), window)
-        axes = panels.take(name, column, desired[1])
+        desired, deformed, observed = curves = (
+            run.curve(DESIRED, name, window),
+            run.curve(DEFORMED, name, window),
+            run.curve(REALISED, name, window),
+        )
+        axes = panels.take(name, column, desired.values)
         if axes is None:
             continue
-        style.draw(axes, *desired, style.BAND)
-        style.draw(axes, *observed, style.thin(colour_of(run, name)))
-        style.draw(axes, *deformed, style.DASHED)
+        style.draw(axes, desired.time, desired.values, style.BAND)
+        style.draw(axes, observed.time, observed.values, style.thin(colour_of(run, name)))
+        style.draw(axes, deformed.time, deformed.values, style.DASHED)
         unit = signals.unit(run, name)
         axes.set_ylabel(style.label(f"response of {style.symbol(name)}", unit, "s²"))
-        curves = desired, deformed, observed
-        late = [y[signals.settled(run, t)] for t, y in curves]
+        late = [_settled(run, curve) for curve in curves]
         settled = window is None and all(len(y) for y in late)
-        panels.scale(name, column, *(late if settled else [y for _, y in curves]), robust=True)
-        panels.extent(name, column, *[y for _, y in curves])
+        bulk = late if settled else [curve.typical[1] for curve in curves]
+        panels.scale(name, column, *bulk, robust=True)
+        panels.extent(name, column, *[curve.values for curve in curves])
     legend = (
         style.handle("desired", style.BAND),
         style.handle("deformed", style.DASHED),
@@ -66,66 +75,61 @@ def _responses(runs: Sequence[Run], windows: Sequence[_Window | None]) -> Panels
     return panels.finish(*legend)
 
 
-def _cut(curve: tuple[Array, Array], window: _Window | None) -> tuple[Array, Array]:
-    time, values = curve
-    if window is None:
-        return curve
-    inside = (time >= window[0]) & (time <= window[1])
-    return time[inside], values[inside]
+def _settled(run: Outline, curve: Curve) -> Array:
+    """Typical numbers of a curve from the settle time on."""
+    time, values = curve.typical
+    return values[signals.settled(run, time)]
 
 
 def forces(runs: Sequence[Run]) -> Panels | None:
     """Generalised forces over time, of the coordinates that are driven at all."""
-    rows = all_names(runs, _driven)
+    outlines = [outline(run) for run in runs]
+    rows = all_names(outlines, _driven)
     if not rows:
         return None
-    panels = Panels.of(runs, rows)
-    for name, column, run in panels.cells(runs):
-        time, effort = signals.topic(run, "command", "effort", name)
-        axes = panels.take(name, column, effort)
+    panels = Panels.of(outlines, rows)
+    for name, column, run in panels.cells(outlines):
+        curve = run.curve(EFFORT, name)
+        axes = panels.take(name, column, curve.values)
         if axes is not None:
-            style.draw(axes, time, effort, style.thin(colour_of(run, name)))
+            style.draw(axes, curve.time, curve.values, style.thin(colour_of(run, name)))
             unit = signals.effort_unit(run, name)
             axes.set_ylabel(style.label(style.symbol(name, force=True), unit))
-            late = effort[signals.settled(run, time)]
-            panels.scale(name, column, late if len(late) else effort, robust=True)
-            panels.extent(name, column, effort)
+            late = _settled(run, curve)
+            panels.scale(name, column, late if len(late) else curve.typical[1], robust=True)
+            panels.extent(name, column, curve.values)
     return panels.finish()
 
 
-def _driven(run: Run) -> list[str]:
-    command = run.topics.get("command")
-    if command is None:
-        return []
-    return [name for name in command.names if np.nan_to_num(command.column("effort", name)).any()]
+def _driven(run: Outline) -> list[str]:
+    names = run.topics["command"].names if "command" in run.topics else ()
+    return [name for name in names if np.nan_to_num(run.curve(EFFORT, name).values).any()]
 
 
-def _tuned(run: Run) -> list[str]:
+def _tuned(run: Outline) -> list[str]:
     """What the tuner publishes, but a guard's factor only where it has done something."""
-    tuning = run.topics["tuning"]
-    factor = tuning.names.index(FACTOR) if FACTOR in tuning.names else None
-    idle = factor is not None and bool((tuning.vectors["values"][:, factor] == 1.0).all())
-    return [name for name in tuning.names if not (idle and name == FACTOR)]
+    idle = bool((run.curve(TUNED, FACTOR).values == 1.0).all())
+    return [name for name in run.topics["tuning"].names if not (idle and name == FACTOR)]
 
 
 def parameters(runs: Sequence[Run]) -> Panels | None:
     """Tuned parameters over time, with their exact values (Fig. 2.11)."""
-    runs = [run for run in runs if "tuning" in run.topics]
-    rows = all_names(runs, _tuned)
+    outlines = [outline(run) for run in runs if "tuning" in run.topics]
+    rows = all_names(outlines, _tuned)
     if not rows:
         return None
-    panels = Panels.of(runs, rows, 1.7)
+    panels = Panels.of(outlines, rows, 1.7)
     exact_line = {**style.DASHED, "color": style.INK}
-    for name, column, run in panels.cells(runs):
-        time, value = signals.topic(run, "tuning", "values", name)
-        axes = panels.take(name, column, value)
+    for name, column, run in panels.cells(outlines):
+        curve = run.curve(TUNED, name)
+        axes = panels.take(name, column, curve.values)
         if axes is not None:
             exact = signals.exact_coefficients(run).get(name)
-            shown = [value]
+            shown = [curve.values]
             if exact is not None:
                 axes.axhline(exact, **exact_line)
                 shown.append(np.array([exact]))
-            style.draw(axes, time, value, style.thin(style.COORDINATES[0]))
+            style.draw(axes, curve.time, curve.values, style.thin(style.COORDINATES[0]))
             axes.set_ylabel(style.plain(name))
             panels.scale(name, column, *shown)
     return panels.finish(

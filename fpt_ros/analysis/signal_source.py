@@ -1,167 +1,164 @@
-"""Signals to be denoised: from a table, an array, a topic of any recording, or a test signal."""
+"""Signals to be denoised: columns of a table, a field of a recording, or a test signal."""
 
-import re
-from collections.abc import Iterator
-from dataclasses import dataclass
+from collections.abc import Callable
+from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from fpt_ros.denoising.noisy import EXAMPLE, PREFIX, parse
 from fpt_ros.errors import BadInput
 from fpt_ros.runs.run import Array
+from fpt_ros.tables import headings
+from fpt_ros.tables.opening import STDIN
+from fpt_ros.tables.reading import TAKES, read
+from fpt_ros.tables.spacing import Spacing, spacing_of
+from fpt_ros.tables.table import Column, Kind, Table
+from fpt_ros.tables.time_axis import TimeAxis, find, unread
 
-if TYPE_CHECKING:
-    import pandas as pd
+ALL = "all"
+"""The word for every column of numbers but the times."""
 
-STEP = re.compile(r"\w+|\[\d+\]")
-"""A step of a field's path: a name, or an index."""
+
+@dataclass(frozen=True)
+class Request:
+    """Which signals of which file.
+
+    Attributes:
+        path: a table, ``-`` for standard input, a recording's directory or file, or the word for a
+            test signal (:mod:`~fpt_ros.denoising.noisy`).
+        columns: names, or ``all``; where none is given the last one with numbers.
+        topic, field: of a recording, as in ``/joint_states`` and ``position[2]``.
+        time: name of the column of times, or ``none``; where it is not given it is looked for.
+    """
+
+    path: Path
+    columns: tuple[str, ...] = ()
+    topic: str | None = None
+    field: str | None = None
+    time: str | None = None
 
 
 @dataclass(frozen=True)
 class Source:
-    """A signal and where it comes from.
+    """Signals and where they come from.
 
     Attributes:
-        values: (n,), NaN where a sample is missing.
-        name: of the column or field.
-        table: what it stands in, n rows; the results become its last columns.
+        table: the signals stand in it, n rows.
+        signals: its columns that are to be denoised.
+        axis: the times of the rows; ``None`` where there are none.
+        spacing: how the rows lie in time.
         path: where from; of a test signal its name.
         clean: the signal without its noise (n,), where it is known.
     """
 
-    values: Array
-    name: str
-    table: "pd.DataFrame"
+    table: Table
+    signals: tuple[Column, ...]
+    axis: TimeAxis | None
+    spacing: Spacing
     path: Path
     clean: Array | None = None
 
 
-def load(path: Path, column: str | None, topic: str | None, field: str | None) -> Source:
-    """Read a signal.
+def load(request: Request, done: Callable[[int], None] = lambda _: None) -> Source:
+    """Read signals.
 
     Args:
-        path: a CSV or NPY file, a recording's directory, an MCAP file, or the word for a test
-            signal (:mod:`~fpt_ros.denoising.noisy`).
-        column: name or index of a column; the last one with numbers where it is not given.
-        topic, field: of a recording, as in ``/joint_states`` and ``position[2]``.
+        request: which.
+        done: is told how many bytes of a text have been read.
 
     Raises:
-        BadInput: it cannot be read, or the column, topic or field is not there (lists what is).
+        BadInput: they cannot be read, or a column, topic or field is not there (lists what is).
     """
+    path, recorded = request.path, (request.topic, request.field) != (None, None)
     if str(path).startswith(PREFIX):
-        if (column, topic, field) != (None, None, None):
-            raise BadInput(f"{path} is one signal: it takes no --column, --topic and --field")
+        if request.columns or recorded or request.time:
+            raise BadInput(f"{path} is one signal: it takes no --column, --topic, --field, --time")
         return _test_signal(str(path))
-    if not path.exists():
+    if str(path) != STDIN and not path.exists():
         raise BadInput(
-            f"{path} does not exist: it takes a CSV or NPY file, a recording, or a test signal, as "
+            f"{path} does not exist: it takes a table ({TAKES}), a recording, or a test signal, as "
             f"in {EXAMPLE}"
         )
-    if path.is_dir() or path.suffix == ".mcap":
-        if topic is None or field is None:
-            raise BadInput(f"{path} is a recording: --topic and --field say which signal")
-        return _recording(path, topic, field)
-    if topic is not None or field is not None:
+    if path.is_dir() or path.suffix in (".mcap", ".bag"):
+        return _recorded(request)
+    if path.suffix == ".db3":
+        raise BadInput(
+            f"{path} is a file of a recording: give its folder, {path.absolute().parent}, with "
+            "--topic and --field"
+        )
+    if recorded:
         raise BadInput("--topic and --field are for recordings: a table takes --column")
-    return _column(path, _table(path), column)
+    wanted = request.columns[0] if request.columns and ALL not in request.columns else None
+    return _of_table(read(path, wanted, done), request)
+
+
+def _recorded(request: Request) -> Source:
+    from fpt_ros.analysis.recorded_signal import read_recording
+
+    if request.topic is None or request.field is None:
+        raise BadInput(f"{request.path} is a recording: --topic and --field say which signal")
+    if request.columns:
+        raise BadInput(f"{request.path} is a recording: it takes --topic and --field, no --column")
+    return _of_table(read_recording(request.path, request.topic, request.field), request)
+
+
+def _of_table(table: Table, request: Request) -> Source:
+    named = [] if ALL in request.columns else list(dict.fromkeys(request.columns))
+    signals = tuple(table.column(name) for name in named)
+    axis = find(table, request.time, [each.name for each in signals])
+    if not signals:
+        signals = _signals(table, axis)
+        signals = signals if ALL in request.columns else signals[-1:]
+    for each in signals:
+        if not each.numeric:
+            names = ", ".join(one.title for one in table.columns if one.numeric) or "none"
+            raise BadInput(f"{table.name}: {each.refusal}: columns of numbers are {names}")
+        if each.refusal:
+            raise BadInput(f"{table.name}: {each.refusal}")
+    if axis is None and request.time is None and unread(table):
+        table = replace(table, remarks=(*table.remarks, unread(table)))
+    return Source(table, signals, axis, spacing_of(table, axis), request.path)
+
+
+def _signals(table: Table, axis: TimeAxis | None) -> tuple[Column, ...]:
+    """Every column of numbers that is neither times nor a count of the rows, and not empty.
+
+    True and false are numbers where there are no others.
+    """
+    others = [
+        each
+        for each in table.columns
+        if each.kind in (Kind.NUMBER, Kind.BOOL) and (axis is None or each.name != axis.column)
+    ]
+    found = [
+        each
+        for each in others
+        if axis is None or not (headings.is_time_name(each.name) or _counts(each))
+    ]
+    found = [each for each in found if each.kind is Kind.NUMBER] or found
+    filled = [each for each in found if 2 * int(np.isnan(each.values).sum()) <= len(table)]
+    if filled or found or others:
+        return tuple(filled or found or others)
+    refused = [each.refusal for each in table.columns if each.refusal]
+    why = f": {refused[-1]}" if refused else ""
+    if axis is None:
+        raise BadInput(f"{table.name} has no column of numbers{why}")
+    raise BadInput(
+        f"{table.name} has no column of numbers but the times '{axis.column}'{why}"
+        + ("" if refused else f": --column {axis.column} takes them as the signal")
+    )
+
+
+def _counts(column: Column) -> bool:
+    return headings.is_index_name(column.name) and bool(np.all(np.diff(column.values) == 1))
 
 
 def _test_signal(text: str) -> Source:
-    import pandas as pd
-
     noisy = parse(text)
     clean, y = noisy.clean(), noisy.samples()
-    time = np.arange(noisy.n) / noisy.n
-    table = pd.DataFrame({"t": time, "clean": clean, "y": y})
-    return Source(y, noisy.signal, table, Path(noisy.signal), clean)
-
-
-def _table(path: Path) -> "pd.DataFrame":
-    import pandas as pd
-
-    try:
-        if path.suffix == ".npy":
-            array = np.load(path, allow_pickle=False)
-            if array.ndim not in (1, 2):
-                raise BadInput(f"{path}: {array.ndim} dimensions, 1 or 2 are needed")
-            return pd.DataFrame(array)
-        first = pd.read_csv(path, nrows=1, header=None)
-        named = not all(isinstance(x, int | float | np.number) for x in first.iloc[0])
-        return pd.read_csv(path, header=0 if named else None)
-    except BadInput:
-        raise
-    except pd.errors.EmptyDataError as error:
-        raise BadInput(f"{path} is empty: it takes a table with one signal a column") from error
-    except (OSError, ValueError, UnicodeDecodeError) as error:
-        raise BadInput(f"{path} cannot be read as a table: {str(error).splitlines()[0]}") from error
-
-
-def _column(path: Path, table: "pd.DataFrame", column: str | None) -> Source:
-    numeric = [name for name in table.columns if table[name].dtype.kind in "fiub"]
-    names = ", ".join(str(name) for name in numeric) or "none"
-    if column is None:
-        if not numeric:
-            raise BadInput(f"{path} has no column of numbers")
-        chosen: Any = numeric[-1]
-    else:
-        known = {str(name): name for name in table.columns}
-        if column not in known:
-            raise BadInput(f"{path} has no column '{column}': columns of numbers are {names}")
-        chosen = known[column]
-        if chosen not in numeric:
-            raise BadInput(f"{path}: column '{column}' is not numbers: columns of them are {names}")
-    return Source(table[chosen].to_numpy(dtype=np.float64), str(chosen), table, path)
-
-
-def _recording(path: Path, topic: str, field: str) -> Source:
-    import pandas as pd
-    from rosbags.highlevel import AnyReader, AnyReaderError
-    from rosbags.typesys import Stores, get_typestore
-
-    try:
-        with AnyReader([path], default_typestore=get_typestore(Stores.ROS2_JAZZY)) as bag:
-            wanted = {topic, f"/{topic.lstrip('/')}"}
-            connections = [each for each in bag.connections if each.topic in wanted]
-            if not connections:
-                names = ", ".join(sorted({each.topic for each in bag.connections}))
-                raise BadInput(f"{path} has no topic '{topic}': there are {names}")
-            times, values = [], []
-            for connection, stamp, raw in bag.messages(connections=connections):
-                message = bag.deserialize(raw, connection.msgtype)
-                times.append(stamp / 1e9)
-                values.append(_follow(message, field, topic))
-    except (AnyReaderError, OSError) as error:
-        raise BadInput(f"{path} cannot be read as a recording: {error}") from error
-    if not values:
-        raise BadInput(f"{path} has no messages on {topic}")
-    name = f"{topic}.{field}"
-    return Source(np.array(values), name, pd.DataFrame({"time": times, name: values}), path)
-
-
-def _follow(message: Any, field: str, topic: str) -> float:
-    at = message
-    for step in _steps(field):
-        if step.startswith("["):
-            index = int(step[1:-1])
-            if not hasattr(at, "__len__") or index >= len(at):
-                raise BadInput(f"--field {field}: {topic} has no element {step} there")
-            at = at[index]
-        elif hasattr(at, step):
-            at = getattr(at, step)
-        else:
-            names = ", ".join(n for n in vars(at) if not n.startswith("_")) or "nothing below it"
-            raise BadInput(f"--field {field}: {topic} has no '{step}', it has {names}")
-    try:
-        return float(at)
-    except (TypeError, ValueError):
-        hint = ", as in position[0]" if hasattr(at, "__len__") else ""
-        raise BadInput(f"--field {field} of {topic} is not one number{hint}") from None
-
-
-def _steps(field: str) -> Iterator[str]:
-    steps = STEP.findall(field)
-    if not steps or "".join(steps) != field.replace(".", ""):
-        raise BadInput(f"--field {field} is not a path like points[0].positions[1]")
-    yield from steps
+    signal = Column(noisy.signal, Kind.NUMBER, y, heading="y")
+    time = Column("t", Kind.NUMBER, np.arange(noisy.n) / noisy.n)
+    table = Table((time, Column("clean", Kind.NUMBER, clean), signal), text, "test signal")
+    axis = TimeAxis("t", time.values, "")
+    return Source(table, (signal,), axis, spacing_of(table, axis), Path(noisy.signal), clean)

@@ -4,50 +4,22 @@ A run may be cut anywhere, so topics can differ in length or be absent; everythi
 what is there, down to empty arrays.
 """
 
-from collections.abc import Iterable
-from dataclasses import dataclass
+from collections.abc import Mapping
 
 import numpy as np
 from numpy.typing import NDArray
 
-from fpt_ros.cycle.plant_simulator import PlantSimulator
-from fpt_ros.cycle.trajectory_generator import TrajectoryGenerator
 from fpt_ros.errors import BadInput
-from fpt_ros.experiments.nominal import sample
 from fpt_ros.messages.frames import SECOND
 from fpt_ros.parameters import Value
 from fpt_ros.plants import MODELS, PLANTS, Model, Plant, made
-from fpt_ros.runs.run import Array, Run
+from fpt_ros.runs.run import Array, Run, Series
 
 Stamps = NDArray[np.int64]
 """(N,) times of messages [ns]."""
 
 CONTROLLER_ONLY = ("K_D",)
 """Parameters of models that no plant has: gains of a feedback of their own."""
-
-
-@dataclass(frozen=True)
-class Motion:
-    """Nominal and realised motion of one controlled coordinate, (N,) each.
-
-    Noise and delay that the simulator has put into the measurement are taken out again.
-
-    Attributes:
-        time: since the run's first stamp [s].
-        nominal, position: in the plant's unit.
-        nominal_velocity, velocity: in the plant's unit per second.
-    """
-
-    time: Array
-    nominal: Array
-    position: Array
-    nominal_velocity: Array
-    velocity: Array
-
-    @property
-    def error(self) -> Array:
-        """Tracking error, nominal minus realised; with time sharing, in all turns."""
-        return self.nominal - self.position
 
 
 def parameter(run: Run, node: str, name: str) -> Value | None:
@@ -74,8 +46,12 @@ def adaptive(run: Run) -> bool:
 
 def origin(run: Run) -> int:
     """First stamp of the run [ns]."""
-    stamps = [int(series.stamps[0]) for series in run.topics.values() if len(series.stamps)]
-    return min(stamps, default=0)
+    return first_stamp(run.topics)
+
+
+def first_stamp(topics: Mapping[str, Series]) -> int:
+    """First stamp of all topics [ns]."""
+    return min((int(s.stamps[0]) for s in topics.values() if len(s.stamps)), default=0)
 
 
 def seconds(run: Run, stamps: Stamps) -> Array:
@@ -86,6 +62,11 @@ def seconds(run: Run, stamps: Stamps) -> Array:
 def settled(run: Run, time: Array) -> NDArray[np.bool_]:
     """(N,) whether ``time`` [s] is settled, exact where both are whole nanoseconds."""
     return np.round(time * SECOND) >= round(settle_time(run) * SECOND)
+
+
+def first_settled(run: Run, time: Array) -> int:
+    """Index of the first of ascending times [s] that is settled; their number: none is."""
+    return int(np.searchsorted(settled(run, time), True))
 
 
 def controlled(run: Run) -> tuple[str, ...]:
@@ -107,78 +88,6 @@ def topic(run: Run, name: str, vector: str, column: str) -> tuple[Array, Array]:
     return seconds(run, series.stamps), series.column(vector, column)
 
 
-def motion(run: Run, coordinate: str) -> Motion:
-    """Nominal and realised motion of a coordinate at the stamps that have both."""
-    desired, measured = run.topics.get("desired"), run.topics.get("joint_states")
-    if desired is None or measured is None:
-        return Motion(*[np.empty(0)] * 5)
-    if coordinate not in desired.names or coordinate not in measured.names:
-        return Motion(*[np.empty(0)] * 5)
-    stamps, i, j = _common(desired.stamps, measured.stamps)
-    position = measured.column("position", coordinate)[j] - _noise(run, coordinate, stamps)
-    velocity = measured.column("velocity", coordinate)[j]
-    if np.isnan(velocity).all():  # not measured: what the denoiser makes of it
-        velocity = _estimated_velocity(run, coordinate, stamps)
-    nominal = desired.column("positions", coordinate)[i]
-    nominal_velocity = desired.column("velocities", coordinate)[i]
-    time = seconds(run, stamps)
-    away = np.isnan(nominal)
-    if parameter(run, "trajectory_generator", "time_sharing") and away.any():
-        nominal, nominal_velocity = nominal.copy(), nominal_velocity.copy()
-        nominal[away], nominal_velocity[away] = _nominal(run, coordinate, time[away])
-    late = int(parameter_number(run, "plant_simulator", "measurement_delay") or 0)
-    count = max(len(time) - late, 0)  # what was measured late belongs to an earlier cycle
-    return Motion(
-        time[:count],
-        nominal[:count],
-        position[late:],
-        nominal_velocity[:count],
-        velocity[late:],
-    )
-
-
-Where = NDArray[np.intp] | slice
-"""Some entries of an array."""
-
-
-def _common(a: Stamps, b: Stamps) -> tuple[Stamps, Where, Where]:
-    """Stamps that are in both, ascending, and where they are; mostly both have all of them."""
-    if len(a) == len(b) and bool((a == b).all()) and bool((a[1:] > a[:-1]).all()):
-        return a, slice(None), slice(None)
-    stamps, i, j = np.intersect1d(a, b, return_indices=True)
-    return stamps, i, j
-
-
-def _noise(run: Run, coordinate: str, stamps: Stamps) -> Array | float:
-    """The noise that the simulator added to the position: errors are those of the plant itself."""
-    if not parameter_number(run, PlantSimulator.name, "noise.position"):
-        return 0.0
-    plant = PlantSimulator(run.parameters[PlantSimulator.name])
-    n, at = len(plant.coordinates), plant.coordinates.index(coordinate)
-    table = np.empty((plant.cycles, 2 * n))
-    plant.noise.rows(0, table)
-    noise: Array = plant.constants.sigma_q * table[(stamps - origin(run)) // plant.cycle_time, at]
-    return noise
-
-
-def _estimated_velocity(run: Run, coordinate: str, stamps: Stamps) -> Array:
-    estimate = run.topics.get("state_estimate")
-    if estimate is None:
-        return np.full(len(stamps), np.nan)
-    _, i, j = _common(stamps, estimate.stamps)
-    found = np.full(len(stamps), np.nan)
-    found[i] = estimate.column("velocities", coordinate)[j]
-    return found
-
-
-def _nominal(run: Run, coordinate: str, time: Array) -> tuple[Array, Array]:
-    """Nominal position and velocity while it is another coordinate's turn to be controlled."""
-    stage = TrajectoryGenerator(run.parameters[TrajectoryGenerator.name])
-    at = stage.controlled.index(coordinate)
-    motions = sample(stage, time.tolist())
-    return np.array([m[0][at] for m in motions]), np.array([m[1][at] for m in motions])
-
-
 def realised_response(run: Run, coordinate: str) -> tuple[Array, Array]:
     """Times [s] and responses of the plant to r_k, (N-1,) each.
 
@@ -187,24 +96,6 @@ def realised_response(run: Run, coordinate: str) -> tuple[Array, Array]:
     """
     time, response = topic(run, "state_estimate", "accelerations", coordinate)
     return time[:-1], response[1:]
-
-
-def period(motions: Iterable[Motion]) -> float | None:
-    """Longest period of the nominal motions [s], from where they cross their middle.
-
-    ``None`` where none of them crosses it twice.
-    """
-    found = []
-    for one in motions:
-        known = np.isfinite(one.nominal)
-        time, nominal = one.time[known], one.nominal[known]
-        if len(nominal) < 3 or np.ptp(nominal) == 0.0:
-            continue
-        above = nominal > (nominal.max() + nominal.min()) / 2
-        crossings = time[1:][above[1:] != above[:-1]]
-        if len(crossings) >= 2:
-            found.append(2.0 * float(np.mean(np.diff(crossings))))
-    return max(found, default=None)
 
 
 def plant_of(run: Run) -> Plant | None:

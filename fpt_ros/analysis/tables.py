@@ -9,8 +9,10 @@ from rich.table import Table
 from rich.text import Text
 
 from fpt_ros.analysis import signals
+from fpt_ros.analysis.comparison import Row, baselines, comparison
 from fpt_ros.analysis.labels import labels_of
-from fpt_ros.analysis.metrics import Row, Summary, baselines, comparison, summary
+from fpt_ros.analysis.metrics import Summary
+from fpt_ros.analysis.outline import numbers_of
 from fpt_ros.runs.run import Run
 
 QUANTITIES = {
@@ -24,7 +26,7 @@ QUANTITIES = {
     "latency_p99_ms": "latency, p99 [ms]",
     "latency_max_ms": "latency, max [ms]",
 }
-"""What the rows of :func:`~fpt_ros.analysis.metrics.comparison` are called."""
+"""What the rows of :func:`~fpt_ros.analysis.comparison.comparison` are called."""
 
 
 @dataclass(frozen=True)
@@ -68,7 +70,7 @@ def content(runs: Sequence[Run | Summary]) -> Content:
     Args:
         runs: runs (units are then given), or their summaries.
     """
-    summaries = [summary(one) if isinstance(one, Run) else one for one in runs]
+    summaries = [numbers_of(one) if isinstance(one, Run) else one for one in runs]
     headings = labels_of([(str(s["experiment"]), str(s["variant"])) for s in summaries])
     against = baselines(summaries)
     lines = []

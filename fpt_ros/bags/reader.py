@@ -1,11 +1,12 @@
 """Reading a recording back as the run that it is a recording of."""
 
 from collections import Counter
-from collections.abc import Iterator
-from dataclasses import dataclass, field
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 from fpt_ros.bags import diagnostics, parameter_text
+from fpt_ros.bags.player import Player
 from fpt_ros.bags.scan import CUT, DAMAGED, Item, Scan, Source, files
 from fpt_ros.bags.writer import END, INFO
 from fpt_ros.cycle.plant_simulator import PlantSimulator
@@ -13,7 +14,8 @@ from fpt_ros.errors import BadInput
 from fpt_ros.messages.cdr import Codec, MalformedMessage
 from fpt_ros.messages.frames import SECOND
 from fpt_ros.messages.topics import BY_NAME, Topic
-from fpt_ros.parameters import Value
+from fpt_ros.parameters import Value, Values
+from fpt_ros.runs.chunks import Consumer
 from fpt_ros.runs.latency import Latencies
 from fpt_ros.runs.run import Collector, Run
 
@@ -85,7 +87,33 @@ def read_run(path: Path) -> Run:
     Raises:
         BadInput: not a recording of this package, or not one that can be read.
     """
-    recording, collector = _Recording(path), Collector()
+    collector = Collector()
+    about = _read(path, collector)
+    return replace(about, topics=collector.topics())
+
+
+def play(path: Path, consumers: Callable[[Mapping[str, Values]], Sequence[Consumer]]) -> Run:
+    """Give a recording's messages to consumers, chunk by chunk, in constant memory.
+
+    Args:
+        path: as :func:`read_run`.
+        consumers: makes them of the run's parameters.
+
+    Returns:
+        All but the topics.
+
+    Raises:
+        BadInput: as :func:`read_run`; some cycles may have been taken by then.
+    """
+    player = Player(consumers)
+    about = _read(path, player)
+    player.finish(about.parameters)
+    return about
+
+
+def _read(path: Path, take: Collector | Player) -> Run:
+    """Decode the messages of a recording, one by one; all of its run but the topics."""
+    recording = _Recording(path)
     decoders: dict[Source, tuple[Topic, Codec] | None] = {}
     latency: Latencies | None = None
     for source, stamp, data in recording.messages():
@@ -93,6 +121,8 @@ def read_run(path: Path) -> Run:
             decoders[source] = _decoder(source, recording)
         decoder = decoders[source]
         if decoder is not None:
+            if isinstance(take, Player):
+                take.begin(recording.parameters or {})
             topic, codec = decoder
             try:
                 frame = codec.decode(data)
@@ -101,7 +131,7 @@ def read_run(path: Path) -> Run:
             count = len(frame.names)
             if any(len(vector) != count for vector in frame[2:]):
                 raise _malformed(path, source, stamp)
-            collector(topic, frame)
+            take(topic, frame)
         elif source == Source(diagnostics.TOPIC, diagnostics.TYPE):
             latency = _latency(recording, stamp, data) or latency
     _namespace(recording)
@@ -109,7 +139,7 @@ def read_run(path: Path) -> Run:
         loop = ", ".join(BY_NAME)
         raise BadInput(f"{path} holds no messages on the loop's topics: {loop}")
     assert recording.parameters is not None
-    return Run(recording.info, recording.parameters, collector.topics(), latency)
+    return Run(recording.info, recording.parameters, {}, latency)
 
 
 def info(path: Path) -> dict[str, object]:

@@ -1,38 +1,39 @@
 """Recording a run of the in-process engine: the same file that the recorder makes of the graph."""
 
-from collections.abc import Mapping
 from pathlib import Path
 from types import TracebackType
 from typing import Self
 
 from fpt_ros.bags.writer import BagWriter
+from fpt_ros.cycle.trajectory_generator import TrajectoryGenerator
 from fpt_ros.experiments.experiment import Experiment
 from fpt_ros.messages.cdr import Codec
 from fpt_ros.messages.topics import DEPTH, LOOP_TOPICS
-from fpt_ros.runs.run import Series, describe, frames
+from fpt_ros.runs.chunks import Chunk, frames
+from fpt_ros.runs.run import describe
 
 
 class EngineRecording:
-    """Writes the cycles of an engine to a recording, as they become complete: a consumer.
+    """Writes the cycles of an engine to a recording, chunk by chunk.
 
     A context: the recording is closed at its end, with ``reason`` or with what was raised.
-    Without a directory it does nothing.
+
+    Args:
+        directory: must not exist.
+        experiment: that runs.
     """
 
-    def __init__(self, directory: Path | None, experiment: Experiment) -> None:
+    def __init__(self, directory: Path, experiment: Experiment) -> None:
         self.reason = ""
-        self._writer: BagWriter | None = None
+        self._sharing = bool(experiment.nodes[TrajectoryGenerator.name]["time_sharing"])
         self._codecs = {topic.name: Codec(topic) for topic in LOOP_TOPICS}
-        if directory is not None:
-            info = describe(experiment, "in_process", "")
-            del info["complete"], info["reason"]
-            self._writer = BagWriter(directory, experiment.nodes, {**info, "clock": "lockstep"})
+        info = describe(experiment, "in_process", "")
+        del info["complete"], info["reason"]
+        self._writer = BagWriter(directory, experiment.nodes, {**info, "clock": "lockstep"})
 
-    def take(self, chunk: Mapping[str, Series]) -> None:
-        """Write some cycles, in the order of events."""
-        if self._writer is None:
-            return
-        for topic, frame in frames(chunk):
+    def take(self, chunk: Chunk) -> None:
+        """Write the messages of the next cycles, in the order of events."""
+        for topic, frame in frames(chunk, self._sharing):
             name = f"/{topic.name}"
             self._writer.add_topic(name, topic.type, DEPTH)
             data = self._codecs[topic.name].encode(frame)
@@ -47,8 +48,6 @@ class EngineRecording:
         error: BaseException | None,
         trace: TracebackType | None,
     ) -> None:
-        if self._writer is None:
-            return
         if error is not None:
             self._writer.__exit__(kind, error, trace)
         else:

@@ -16,9 +16,9 @@ def demo(out: Out = Path("demo"), duration: Duration = None) -> None:
 
     Example: fpt demo --out /tmp/demo
     """
+    from fpt_ros.analysis.recorded import read_outline
     from fpt_ros.analysis.report import write_report
     from fpt_ros.analysis.tables import console_table
-    from fpt_ros.bags.reader import read_run
     from fpt_ros.cli.options import check_new_directory
     from fpt_ros.cli.output import console
     from fpt_ros.cli.run import run_recorded
@@ -35,7 +35,7 @@ def demo(out: Out = Path("demo"), duration: Duration = None) -> None:
             raise failure or RunFailed(f"nothing was recorded in {bag}")
         bags.append(bag)
         results.append(result)
-    page = write_report([read_run(bag) for bag in bags], folder / "report")
+    page = write_report([read_outline(bag) for bag in bags], folder / "report")
     screen = console()
     screen.print(console_table(results))
     for bag in bags:

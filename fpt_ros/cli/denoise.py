@@ -1,21 +1,36 @@
 """``fpt denoise``."""
 
+import sys
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
 from fpt_ros.cli.options import Json
 
 if TYPE_CHECKING:
-    from fpt_ros.analysis.signal_source import Source
-    from fpt_ros.denoising.offline import Result
+    from fpt_ros.analysis.estimates import Estimate
+    from fpt_ros.analysis.signal_source import Request, Source
+    from fpt_ros.parameters import Value
 
 File = Annotated[
     Path,
-    typer.Argument(metavar="FILE", help="A CSV or NPY file, a recording, or test:SIGNAL."),
+    typer.Argument(
+        metavar="FILE", help="A table, - for standard input, a recording, or test:SIGNAL."
+    ),
 ]
-Column = Annotated[str | None, typer.Option(metavar="C", help="Column; default: the last one.")]
+Column = Annotated[
+    list[str] | None,
+    typer.Option(
+        metavar="NAME", help="Column, repeatable, or all; default: the last one of numbers."
+    ),
+]
+Time = Annotated[
+    str | None,
+    typer.Option(metavar="NAME", help="Column of times; none: rows are equally spaced."),
+]
 Topic = Annotated[str | None, typer.Option(metavar="T", help="Topic of a recording.")]
 Field = Annotated[str | None, typer.Option(metavar="F", help="Field, as in position[2].")]
 Method = Annotated[
@@ -26,17 +41,24 @@ Settings = Annotated[
     typer.Option("--set", metavar="PARAM=VALUE", help="Change a parameter of it; repeatable."),
 ]
 Out = Annotated[
-    Path | None, typer.Option(metavar="FILE", help="CSV to write; default: FILE-denoised.csv.")
+    Path | None,
+    typer.Option(
+        metavar="FILE",
+        help="Table to write (csv, tsv, parquet, npz; - for standard output); default: "
+        "FILE-denoised.csv.",
+    ),
 ]
 Plot = Annotated[Path | None, typer.Option(metavar="FILE", help="Picture to draw (png, svg, pdf).")]
 Compare = Annotated[bool, typer.Option("--compare", help="Run all methods and print the table.")]
 
-PICTURES = (".png", ".svg", ".pdf")
+LONG_TEXT, LONG_RECORD = 20_000_000, 50_000
+"""Bytes and samples from which on progress is shown."""
 
 
 def denoise(
     file: File,
     column: Column = None,
+    time: Time = None,
     topic: Topic = None,
     field: Field = None,
     method: Method = "auto",
@@ -48,160 +70,158 @@ def denoise(
 ) -> None:
     """Denoise a signal: a column of a table, or a field of a recording's topic.
 
-    Missing samples (empty, NaN) are healed and marked. The last column of the output is the
-    estimate. test:SIGNAL is a test signal of chapters 5 and 6 with noise, whose SNR is printed.
+    Tables are CSV and other text with any separator and decimal mark, JSON, NPY, NPZ, Parquet, MAT
+    and WAV, compressed or not. Header, units, comments and the column of times are found, and told.
+    Rows may be in any order, and may lack samples: missing ones (empty, NaN, words) are healed and
+    marked. The output has all columns of the table, then healed and estimate.
+
+    test:SIGNAL is a test signal of chapters 5 and 6 with noise, whose SNR is printed.
 
     Example: fpt denoise signal.csv --column y --plot signal.png
+
+    Example: fpt denoise log.tsv.gz --column all --time stamp --out smooth.parquet
+
+    Example: zcat log.csv.gz | fpt denoise - > smooth.csv
 
     Example: fpt denoise /tmp/tora --topic /joint_states --field position[2] --out q3.csv
 
     Example: fpt denoise test:sines,rho=0.5,seed=10 --method improved --plot sines.png
     """
-    from fpt_ros.analysis.signal_source import load
-    from fpt_ros.cli.output import console, print_json
-    from fpt_ros.errors import BadInput
+    from fpt_ros.analysis.signal_source import Request
+    from fpt_ros.cli.denoise_files import picture_path, targets, write
 
-    if plot is not None and plot.suffix not in PICTURES:
-        raise BadInput(f"--plot {plot}: it takes a name that ends in {', '.join(PICTURES)}")
-    source = load(file, column, topic, field)
+    target, pictures = targets(file, out, plot, compare, json)
+    request = Request(file, tuple(column or ()), topic, field, time)
+    source = _load(request)
     if compare:
         _compare(source, json)
         return
-    target = out or source.path.with_name(f"{source.path.stem}-denoised.csv")
-    if target.absolute() == file.absolute():
-        raise BadInput(f"--out {target} is the input: give another name")
-    result = _run(source, method, set_ or [])
-    _write(source, result, target, plot)
-    numbers = {
-        "file": str(file),
-        "signal": source.name,
-        "method": result.method,
-        "samples": len(source.values),
-        "healed": int(result.healed.sum()),
-        "sigma": result.sigma,
-        **_success(source, result),
-        "info": dict(result.info),
-        "out": str(target),
-        "plot": str(plot) if plot is not None else None,
-    }
-    if json:
-        print_json(numbers)
-        return
-    healed = f", {numbers['healed']} of them healed" if numbers["healed"] else ""
-    screen = console()
-    screen.print(f"{source.name}: {numbers['samples']} samples{healed}, noise {result.sigma:.4g}")
-    if source.clean is not None:
-        before, after, rmse = _success(source, result).values()
-        screen.print(f"SNR {before:.4f} dB before, {after:.4f} dB after, RMSE {rmse:.4g}")
-    screen.print(f"estimate ({result.method}): {target}", soft_wrap=True)
-    if plot is not None:
-        screen.print(f"picture: {plot}", soft_wrap=True)
+    options = _options(set_ or [])
+    found = _estimates(source, method, options, every="all" in request.columns)
+    paths = [picture_path(pictures, one, len(found)) for one in found] if pictures else []
+    write(source, found, target, paths)
+    _tell(source, found, file, target, paths, json)
 
 
-def _run(source: "Source", method: str, settings: list[str]) -> "Result":
-    from fpt_ros.denoising.offline import denoise as run
+def _load(request: "Request") -> "Source":
+    """The signals; with a bar where the file is long."""
+    from fpt_ros.analysis.signal_source import load
+    from fpt_ros.cli.output import progress_bar
+
+    path = request.path
+    size = path.stat().st_size if path.is_file() else 0
+    if size < LONG_TEXT:
+        return load(request)
+    with progress_bar(f"reading {path.name}", size, "bytes") as done:
+        return load(request, lambda count: done(min(count, size)))
+
+
+def _options(settings: list[str]) -> "dict[str, Value]":
     from fpt_ros.errors import BadInput
     from fpt_ros.experiments.parameter_file import scalar
 
-    options = {}
+    options: dict[str, Any] = {}
     for text in settings:
         name, equals, value = text.partition("=")
         if not equals:
             raise BadInput(f"--set {text}: it takes PARAM=VALUE, as in level=4")
-        options[name] = scalar(value)
-    return run(source.values, method, **options)  # type: ignore[arg-type]  # checked in there
+        options[name] = scalar(value)  # checked by the method
+    return options
 
 
-def _success(source: "Source", result: "Result") -> dict[str, float]:
-    """How near to the clean signal, where that is known."""
-    from fpt_ros.denoising.signals import rmse, snr_db
+def _estimates(
+    source: "Source", method: str, options: "dict[str, Value]", every: bool
+) -> "list[Estimate]":
+    """The estimates; where all columns are asked for, those that can be had.
 
-    if source.clean is None:
-        return {}
-    there = ~result.healed
-    return {
-        "snr_before": snr_db(source.clean[there], source.values[there]),
-        "snr_after": snr_db(source.clean, result.estimate),
-        "rmse": rmse(source.clean, result.estimate),
-    }
-
-
-def _write(source: "Source", result: "Result", target: Path, plot: Path | None) -> None:
-    """Table and picture; each appears whole or not at all."""
-    import io
-
-    from fpt_ros.analysis.signal_figure import picture
-    from fpt_ros.analysis.whole_files import write_whole
+    Raises:
+        BadInput: a signal cannot be denoised, or none of all.
+    """
+    from fpt_ros.analysis.estimates import estimate
     from fpt_ros.errors import BadInput
 
-    table = source.table.copy()
-    table["healed"] = result.healed.astype(int)
-    table["estimate"] = result.estimate
-    text = io.StringIO()
-    table.to_csv(text, index=False)
-    try:
-        write_whole(target, text.getvalue().encode())
-        if plot is not None:
-            write_whole(plot, picture(source, result, plot.suffix[1:]))
-    except OSError as error:
-        raise BadInput(f"{error.filename or target} cannot be written: {error.strerror}") from error
+    found, refused = [], []
+    for signal in source.signals:
+        try:
+            with _working(signal.name, len(source.table)) as progress:
+                found.append(estimate(source, signal, method, options, progress))
+        except BadInput as error:
+            if not every:
+                raise
+            refused.append(error)
+            print(f"fpt: note: {signal.name} is left out: {error}", file=sys.stderr)
+    if not found:
+        raise refused[0]
+    return found
+
+
+@contextmanager
+def _working(name: str, samples: int) -> Iterator[Callable[..., None] | None]:
+    """Progress of a method on a long record."""
+    from fpt_ros.cli.output import progress_bar
+
+    if samples < LONG_RECORD:
+        yield None
+        return
+    with progress_bar(f"denoising {name}", samples, "samples") as done:
+        yield done
+
+
+def _tell(
+    source: "Source",
+    found: "list[Estimate]",
+    file: Path,
+    target: Path,
+    pictures: list[Path],
+    json: bool,
+) -> None:
+    from rich.console import Console
+
+    from fpt_ros.analysis.estimates import remarks
+    from fpt_ros.cli import denoise_summary as summary
+    from fpt_ros.cli.output import console, print_json
+
+    plots = [str(path) for path in pictures]
+    drawn: list[str | None] = [*plots] if plots else [None] * len(found)
+    if json:
+        signals = [summary.numbers(source, one) for one in found]
+        for signal, plot in zip(signals, drawn, strict=True):
+            signal["plot"] = plot
+        print_json(
+            {
+                "file": str(file),
+                "read": source.table.layout,
+                "times": summary.times(source),
+                "remarks": remarks(source),
+                **(signals[0] if len(signals) == 1 else {"signals": signals}),
+                "out": str(target),
+            }
+        )
+        return
+    to_stdout = str(target) == "-"
+    screen = Console(stderr=True, highlight=False) if to_stdout else console()
+    summary.print_source(screen, source)
+    for one in found:
+        summary.print_found(screen, source, one)
+    if not to_stdout:
+        summary.say(screen, f"estimate ({found[0].result.method}): {target}")
+    for plot in plots:
+        summary.say(screen, f"picture: {plot}")
 
 
 def _compare(source: "Source", json: bool) -> None:
-    """All methods on one signal: noise that each leaves over, and time."""
-    from time import process_time
-
-    import numpy as np
-
+    from fpt_ros.analysis.compared_methods import compare
+    from fpt_ros.cli import denoise_summary as summary
     from fpt_ros.cli.output import console, print_json
-    from fpt_ros.denoising.offline import DENOISERS
     from fpt_ros.errors import BadInput
 
-    rows: list[dict[str, str | float]] = []
-    for name in DENOISERS.names():
-        started = process_time()
-        try:
-            result = _run(source, name, [])
-        except BadInput as error:
-            rows.append({"method": name, "error": str(error)})
-            continue
-        seconds = process_time() - started
-        residual = source.values - result.estimate
-        rough = float(np.sqrt(np.mean(np.diff(result.estimate, 2) ** 2)))
-        rows.append(
-            {
-                "method": name,
-                **_success(source, result),
-                "sigma": result.sigma,
-                "residual_rms": float(np.sqrt(np.nanmean(residual**2))),
-                "residual_median": float(np.nanmedian(np.abs(residual))) / 0.6745,
-                "roughness": rough,
-                "cpu_time": seconds,
-            }
-        )
+    if len(source.signals) > 1:
+        raise BadInput("--compare takes one signal: give one --column")
+    signal = source.signals[0]
+    rows = compare(source, signal)
     if json:
-        print_json({"signal": source.name, "samples": len(source.values), "methods": rows})
+        print_json({"signal": signal.name, "samples": len(source.table), "methods": rows})
         return
-    from rich.markup import escape
-    from rich.table import Table
-
-    known = {"SNR [dB]": "snr_after"} if source.clean is not None else {}
-    columns = known | {
-        "residual rms": "residual_rms",
-        "robust": "residual_median",
-        "roughness": "roughness",
-        "CPU [s]": "cpu_time",
-    }
-    table = Table("method", *map(escape, columns), box=None)
-    for row in rows:
-        if "error" in row:
-            table.add_row(str(row["method"]), str(row["error"]))
-            continue
-        table.add_row(str(row["method"]), *(f"{row[key]:.4g}" for key in columns.values()))
     screen = console()
-    screen.print(table)
-    screen.print(
-        "robust: median size of the residual / 0.6745. The residual of a good estimate is the "
-        "noise: both near sigma where there are no impulses. "
-        "roughness: rms of the second difference."
-    )
+    summary.print_source(screen, source)
+    summary.print_comparison(screen, source, rows)

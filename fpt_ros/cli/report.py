@@ -18,16 +18,17 @@ def report(bags: Bags, out: Out = None, json: Json = False) -> None:
 
     Example: fpt report demo/adaptive demo/nonadaptive --out /tmp/report
     """
-    from fpt_ros.analysis.metrics import summary
+    from fpt_ros.analysis.recorded import read_outline
     from fpt_ros.analysis.report import write_report
     from fpt_ros.analysis.tables import console_table
-    from fpt_ros.bags.reader import read_run
     from fpt_ros.cli.output import console, print_json
 
-    runs = [read_run(bag) for bag in bags]
+    runs = [read_outline(bag) for bag in bags]
     first = bags[0].absolute()
     page = write_report(runs, out or first.with_name(first.stem + "-report"))
-    results = [{**summary(run), "bag": str(bag)} for run, bag in zip(runs, bags, strict=True)]
+    results = [
+        {**(run.numbers or {}), "bag": str(bag)} for run, bag in zip(runs, bags, strict=True)
+    ]
     if json:
         one = results[0] if len(results) == 1 else {"runs": results}
         print_json({**one, "report": str(page)})

@@ -72,8 +72,7 @@ def run_recorded(
     Returns:
         The result so far as the recording goes (None: nothing was recorded), and what went wrong.
     """
-    from fpt_ros.analysis.metrics import summary
-    from fpt_ros.bags.reader import read_run
+    from fpt_ros.analysis.recorded import read_summary
     from fpt_ros.cli.output import progress_bar
     from fpt_ros.errors import BadInput, FptError
     from fpt_ros.nodes import graph
@@ -95,7 +94,7 @@ def run_recorded(
             failure = error
     wall = perf_counter() - started
     try:
-        result = summary(read_run(bag))
+        result = read_summary(bag)
     except BadInput:
         return None, failure
     rate = None

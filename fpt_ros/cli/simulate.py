@@ -2,7 +2,7 @@
 
 import signal
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import ExitStack, contextmanager
 from time import perf_counter
 
 from fpt_ros.cli.gain import warn_about_gain
@@ -36,24 +36,28 @@ def simulate(
     if record is not None:
         check_new_directory(record)
     warn_about_gain(experiment)
-    from fpt_ros.analysis.metrics import summary
+    from fpt_ros.analysis.metrics import Metrics
     from fpt_ros.bags.recording import EngineRecording
     from fpt_ros.cli.output import print_result, progress_bar
-    from fpt_ros.engine.buffers import Whole
     from fpt_ros.engine.engine import Engine
     from fpt_ros.errors import Interrupted, RunFailed
-    from fpt_ros.runs.run import Run, describe
+    from fpt_ros.runs.chunks import Consumer
+    from fpt_ros.runs.run import describe
 
     failure: RunFailed | Interrupted | None = None
     started = perf_counter()
-    loop, whole = experiment.loop(), Whole()
+    loop = experiment.loop()
+    metrics = Metrics(experiment.nodes)
+    consumers: list[Consumer] = [metrics]
     title = f"{experiment.name} {experiment.variant}"
-    with (
-        interrupts() as interrupted,
-        EngineRecording(record, experiment) as recording,
-        progress_bar(title, loop.plant.cycles) as bar,
-    ):
-        engine = Engine(loop, consumers=(whole, recording))
+    with ExitStack() as stack:
+        interrupted = stack.enter_context(interrupts())
+        recording = None
+        if record is not None:
+            recording = stack.enter_context(EngineRecording(record, experiment))
+            consumers.append(recording)
+        bar = stack.enter_context(progress_bar(title, loop.plant.cycles))
+        engine = Engine(loop, consumers=consumers)
 
         def progress(cycle: int) -> None:
             bar(cycle)
@@ -65,10 +69,10 @@ def simulate(
             engine.run(progress)
         except (RunFailed, Interrupted) as error:
             failure = error
-            recording.reason = str(error)
+            if recording is not None:
+                recording.reason = str(error)
     ended = perf_counter()
-    info = describe(experiment, "in_process", str(failure or ""))
-    result = summary(Run(info, experiment.nodes, whole.topics()))
+    result = metrics.result(describe(experiment, "in_process", str(failure or "")))
     cycles = result["cycles"]
     assert isinstance(cycles, int)
     print_result(

@@ -150,8 +150,8 @@ class FptDeformer(Stage):
         self._desired = Entrance(f"{self.name}, desired", controlled, partial=True)
         self._estimated = Entrance(f"{self.name}, state_estimate", self.model.coordinates)
         self.entrances = {STATE_ESTIMATE.name: self._estimated, DESIRED.name: self._desired}
-        if controlled:
-            self.begin(controlled)
+        if controlled and set(controlled) <= set(self.model.controlled):
+            self.begin(controlled)  # otherwise the first cycle, or the check of the fit, refuses
 
     def begin(self, controlled: Names) -> None:
         """Fix which coordinates are controlled, in their order.

@@ -9,7 +9,7 @@ import math
 from typing import Any, TypeVar
 
 from fpt_ros.errors import BadInput
-from fpt_ros.laws import Vector
+from fpt_ros.laws import Indices, Vector
 from fpt_ros.messages.frames import Frame, Names
 
 Taken = TypeVar("Taken", bound=Frame)
@@ -73,7 +73,7 @@ class Entrance:
         self._places = None if places == tuple(range(len(names))) else places
         self._seen = names
 
-    def _ordered(self, field: str, vector: Vector, length: int, places: Any) -> list[float]:
+    def _ordered(self, field: str, vector: Vector, length: int, places: Indices) -> list[float]:
         if not len(vector):
             return [math.nan] * len(self.names)
         if len(vector) != length:

@@ -38,6 +38,16 @@ class Noise:
             out[at : at + len(piece)] = piece
             at += len(piece)
 
+    def at(self, cycles: "NDArray[np.int64]") -> "NDArray[np.float64]":
+        """(N, width) numbers of N cycles."""
+        import numpy as np
+
+        blocks, found = cycles // BLOCK, np.empty((len(cycles), self._width))
+        for number in np.unique(blocks).tolist():
+            inside = blocks == number
+            found[inside] = self._of_block(number)[cycles[inside] % BLOCK]
+        return found
+
     def _of_block(self, number: int) -> "NDArray[np.float64]":
         import numpy as np
 

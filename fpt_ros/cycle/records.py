@@ -18,9 +18,20 @@ Example::
 
 from array import array
 from math import prod
-from typing import Any, Generic, TypeVar
+from typing import TYPE_CHECKING, Any, Generic, TypeVar, Union, cast
+
+from fpt_ros.laws import Matrix, MutableVector
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
+    Array = NDArray[np.float64]
 
 Record = TypeVar("Record", bound=tuple[Any, ...])
+
+Buffer = Union["array[float]", "memoryview[float]", "Array"]
+"""Doubles in one piece."""
 
 Size = int | tuple[int, int]
 """Length of a vector, or rows and columns of a matrix."""
@@ -46,7 +57,7 @@ class Layout(Generic[Record]):
         """A buffer of zeros."""
         return array("d", bytes(8 * self.size))
 
-    def on(self, buffer: Any) -> Record:
+    def on(self, buffer: Buffer) -> Record:
         """The record on a buffer of doubles (array, memoryview, NumPy array): views, no copies.
 
         Raises:
@@ -54,8 +65,11 @@ class Layout(Generic[Record]):
         """
         if len(buffer) != self.size:
             raise ValueError(f"{self.size} numbers needed, the buffer holds {len(buffer)}")
-        whole = buffer if hasattr(buffer, "reshape") else memoryview(buffer)
-        views, at = [], 0
+        whole: memoryview[float] | Array = (
+            cast("memoryview[float]", memoryview(buffer)) if isinstance(buffer, array) else buffer
+        )
+        views: list[Any] = []
+        at = 0
         for shape in self._shapes:
             end = at + _count(shape)
             views.append(_view(whole[at:end], shape))
@@ -67,13 +81,11 @@ def _count(shape: Size) -> int:
     return shape if isinstance(shape, int) else prod(shape)
 
 
-def _view(flat: Any, shape: Size) -> Any:
+def _view(flat: "memoryview[float] | Array", shape: Size) -> MutableVector | Matrix:
+    if not isinstance(flat, memoryview):
+        return cast(Matrix, flat.reshape(shape))
     if isinstance(shape, int):
-        return flat
-    if hasattr(flat, "reshape"):
-        return flat.reshape(shape)
-    return flat.cast("B").cast("d", shape=list(shape)) if len(flat) else _NO_ROWS
-
-
-_NO_ROWS: tuple[()] = ()
-"""A matrix without rows, which a memoryview cannot be."""
+        return cast(MutableVector, flat)
+    if not len(flat):
+        return cast(Matrix, ())  # a memoryview cannot be without rows
+    return cast(Matrix, flat.cast("B").cast("d", shape=shape))

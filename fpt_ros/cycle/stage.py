@@ -9,10 +9,10 @@ from abc import ABC, abstractmethod
 from array import array
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any, ClassVar
+from typing import Any, ClassVar, TypeVar
 
 from fpt_ros.cycle.joints import Entrance
-from fpt_ros.cycle.records import Layout
+from fpt_ros.cycle.records import Buffer, Layout
 from fpt_ros.errors import BadInput
 from fpt_ros.messages.frames import SECOND, Frame, Names
 from fpt_ros.messages.topics import Topic
@@ -39,6 +39,9 @@ JOINTS = Parameter(
     live=False,
 )
 """Derived from the plant where an experiment is loaded."""
+
+
+Memory = TypeVar("Memory", bound=tuple[Any, ...])
 
 
 @dataclass(frozen=True)
@@ -71,7 +74,7 @@ class Stage(ABC):
     name: ClassVar[str]
     output: ClassVar[Topic]
 
-    def __init__(self, given: Values, state: Any = None) -> None:
+    def __init__(self, given: Values, state: Buffer | None = None) -> None:
         """Configure from parameters by name.
 
         Args:
@@ -83,7 +86,7 @@ class Stage(ABC):
             BadInput: an unknown, missing or invalid parameter.
         """
         self.values = resolve(self.parameters(given), given, self.name)
-        self.state: Any = array("d") if state is None else state
+        self.state: Buffer = array("d") if state is None else state
         self.layout: Layout[Any] | None = None
         self.entrances: dict[str, Entrance] = {}
         self.clock = array("q", (-1, -1))
@@ -138,11 +141,11 @@ class Stage(ABC):
     def _prepare(self) -> None:
         """Work out the constants of the laws from ``values``."""
 
-    def _remember(self, layout: Layout[Any]) -> tuple[Any, bool]:
+    def _remember(self, layout: Layout[Memory]) -> tuple[Memory, bool]:
         """The memory of this layout on the state, and whether it is new, all zeros."""
         fresh = not len(self.state)
         self.layout = layout
-        if fresh and layout.size:
+        if fresh and isinstance(self.state, array):
             self.state.frombytes(bytes(8 * layout.size))
         return layout.on(self.state), fresh
 

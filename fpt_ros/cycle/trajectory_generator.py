@@ -46,13 +46,15 @@ PARAMETERS = (
 class TrajectoryConstants(NamedTuple):
     """Constants of the motion and of the relaxation; places of the controlled coordinates; slots.
 
-    ``slots``: how long each coordinate's turn is [ns]; empty: it is always everyone's.
+    ``slots``: how long each coordinate's turn is [ns]; empty: it is always everyone's. ``order``:
+    derivative of the nominal motion that is the nominal response, that of the plant.
     """
 
     nominal: Vector
     relaxation: Vector
     where: Indices
     slots: Vector
+    order: int
 
 
 class TrajectoryMemory(NamedTuple):
@@ -107,7 +109,7 @@ def prescribe(
     )
     rate, integral, last = constants.relaxation, memory.integral, memory.error
     q, v, q_n, v_n = estimate.positions, estimate.velocities, out.positions, out.velocities
-    response, combined = out.accelerations, out.combined_error
+    response, combined, order = out.accelerations, out.combined_error, constants.order
     for i in range(len(q_n)):
         if active >= 0 and active != i:
             response[i] = math.nan
@@ -120,7 +122,8 @@ def prescribe(
         at = constants.where[i]
         error, error_dot = q_n[i] - q[at], v_n[i] - v[at]
         combined[i] = combined_error(rate[0], error, error_dot, integral[i])
-        response[i] = relax(rate, response[i], error, error_dot, integral[i])
+        wanted = response[i] if order == 2 else v_n[i] if order == 1 else q_n[i]
+        response[i] = relax(rate, wanted, error, error_dot, integral[i])
         last[i] = error
     memory.turn[0] = active
 
@@ -176,7 +179,7 @@ class TrajectoryGenerator(Stage):
         self._entrance = Entrance(f"{self.name}, state_estimate", tuple(words(values, "joints")))
         self.entrances = {STATE_ESTIMATE.name: self._entrance}
         self._names: Names = ()
-        self.constants = TrajectoryConstants(motion, decay, (), slots)
+        self.constants = TrajectoryConstants(motion, decay, (), slots, self.relaxation.order)
         self._turns = [(name,) for name in self.controlled]
         layout = Layout(
             TrajectoryMemory, integral=c, error=c, turn=1, nominal=len(self.trajectory.state)

@@ -4,6 +4,7 @@ from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from fpt_ros.cycle.loop import CycleRows
 from fpt_ros.cycle.rows import (
@@ -24,9 +25,10 @@ from fpt_ros.messages.topics import (
     TUNING,
     Topic,
 )
-from fpt_ros.runs.run import Series, joined
+from fpt_ros.runs.chunks import joined
+from fpt_ros.runs.run import Array, Series
 
-RECORDS = {
+RECORDS: dict[Topic, Any] = {
     JOINT_STATES: JointStatesRows,
     STATE_ESTIMATE: StateEstimateRows,
     DESIRED: DesiredRows,
@@ -40,6 +42,7 @@ class Buffers:
 
     Attributes:
         rows: what the loop writes.
+        noise: numbers for the sensors, a row a cycle; no columns without noise.
     """
 
     def __init__(self, loop: Loop, length: int) -> None:
@@ -53,13 +56,13 @@ class Buffers:
             TUNING: tuner.published if tuner.active else (),
             COMMAND: plant.coordinates,
         }
-        records = {
-            topic: record(*[np.empty((length, len(self._names[topic]))) for _ in topic.vectors])
-            for topic, record in RECORDS.items()
+        self._arrays: dict[Topic, list[Array]] = {
+            topic: [np.empty((length, len(names))) for _ in topic.vectors]
+            for topic, names in self._names.items()
         }
-        width = 2 * len(plant.coordinates) if plant.noisy else 0
-        rows: Any = (*records.values(), np.empty((length, width)))
-        self.rows = CycleRows(*rows)
+        self.noise: Array = np.empty((length, 2 * len(plant.coordinates) if plant.noisy else 0))
+        records: list[Any] = [make(*self._arrays[topic]) for topic, make in RECORDS.items()]
+        self.rows = CycleRows(*records, self.noise)  # type: ignore[call-arg]  # as many as it has
 
     def series(self, first: int, end: int) -> dict[str, Series]:
         """The messages of some cycles, the first in row 0; views."""
@@ -68,23 +71,22 @@ class Buffers:
             topic.name: self._series(topic, stamps) for topic in LOOP_TOPICS if self._names[topic]
         }
 
-    def _series(self, topic: Topic, stamps: "np.ndarray[tuple[int], np.dtype[np.int64]]") -> Series:
-        rows = self.rows[LOOP_TOPICS.index(topic)]
+    def _series(self, topic: Topic, stamps: NDArray[np.int64]) -> Series:
         vectors = {
             name: matrix[: len(stamps)]
-            for name, matrix in zip(topic.vectors, rows, strict=True)  # type: ignore[arg-type]
+            for name, matrix in zip(topic.vectors, self._arrays[topic], strict=True)
         }
-        if topic is DESIRED and self._sharing:
-            absent = np.isnan(vectors["accelerations"])
-            vectors = {name: np.where(absent, np.nan, each) for name, each in vectors.items()}
-        return Series(stamps, self._names[topic], vectors)
+        if topic is not DESIRED or not self._sharing:
+            return Series(stamps, self._names[topic], vectors)
+        absent = np.isnan(vectors["accelerations"])
+        vectors = {name: np.where(absent, np.nan, each) for name, each in vectors.items()}
+        return Series(stamps, self._names[topic], vectors).without_empty("accelerations")
 
     def put(self, row: int, topic: Topic, frame: Frame) -> None:
         """Write a frame that the Python stages gave."""
         names = self._names[topic]
         places = [names.index(name) for name in frame.names]
-        rows = self.rows[LOOP_TOPICS.index(topic)]
-        for matrix, vector in zip(rows, frame[2:], strict=True):  # type: ignore[arg-type]
+        for matrix, vector in zip(self._arrays[topic], frame[2:], strict=True):
             matrix[row] = np.nan
             matrix[row, places] = vector
 
@@ -105,6 +107,5 @@ class Whole:
             return {}
         names = self._chunks[0]
         whole = {name: joined([chunk[name] for chunk in self._chunks]) for name in names}
-        whole[DESIRED.name] = whole[DESIRED.name].without_empty("accelerations")
         self._chunks = [whole]
         return whole

@@ -1,8 +1,8 @@
 """The in-process engine: the control cycle over a whole run, compiled, without ROS."""
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from functools import partial
-from typing import Any, Protocol
+from typing import Any
 
 import numpy as np
 
@@ -18,20 +18,11 @@ from fpt_ros.engine.types import Array, as_arrays, empty
 from fpt_ros.errors import Diverged, RunFailed
 from fpt_ros.messages.frames import SECOND, Command, StateEstimate
 from fpt_ros.messages.topics import COMMAND
+from fpt_ros.runs.chunks import CHUNK, Consumer
 from fpt_ros.runs.run import Series
-
-CHUNK = 8192
-"""Cycles between two looks at progress and Ctrl-C, and whose messages are held at a time."""
 
 LONG = 500_000
 """Cycles from which a specialised loop is worth the seconds that it takes, once."""
-
-
-class Consumer(Protocol):
-    """Takes the messages of a run, some cycles at a time."""
-
-    def take(self, chunk: Mapping[str, Series]) -> None:
-        """Cycles in order, by topic; the arrays are used again after the call."""
 
 
 class Engine:
@@ -73,7 +64,8 @@ class Engine:
             loop.deformer.begin(loop.trajectory.controlled)
         self._states = [_view(stage.state) for stage in loop.stages()]
         self._constants = _constants(loop)
-        self._memory = _memory(loop, self._states)
+        self._command: list[Array] = list(np.full((2, len(plant.coordinates)), np.nan))
+        self._memory = _memory(loop, self._states, self._command)
         self._work = _work(loop)
         self._buffers = Buffers(loop, min(CHUNK, plant.cycles))
         self._run: Callable[..., int] = self._prepare(compile_laws)
@@ -153,22 +145,21 @@ class Engine:
             for consumer in self._consumers:
                 consumer.take(chunk)
 
-    def _remembered(self) -> list[Any]:
+    def _remembered(self) -> list[Array]:
         """All that a cycle changes and the next one needs."""
-        command = self._memory.command
-        return [*self._states, command.accelerations, command.effort]
+        return [*self._states, *self._command]
 
     def _call(self, first: int, end: int) -> int:
         rows = self._buffers.rows
         if self._loop.plant.noisy:
-            self._loop.plant.noise.rows(first, rows.noise[: end - first])
+            self._loop.plant.noise.rows(first, self._buffers.noise[: end - first])
         with np.errstate(all="ignore"):
             return self._run(first, end, self._constants, self._memory, self._work, rows)
 
     def _last_command(self, cycle: int) -> Command | None:
         if cycle == 0:
             return None
-        r, effort = (vector.tolist() for vector in self._memory.command)  # type: ignore[attr-defined]
+        r, effort = (vector.tolist() for vector in self._command)
         stamp = (cycle - 1) * self._loop.plant.cycle_time
         return Command(stamp, self._loop.plant.coordinates, r, effort)
 
@@ -204,14 +195,14 @@ def _constants(loop: Loop) -> CycleConstants:
     return constants
 
 
-def _memory(loop: Loop, states: Sequence[Array]) -> CycleMemory:
+def _memory(loop: Loop, states: Sequence[Array], command: Sequence[Array]) -> CycleMemory:
     """The stages' memories on their own states."""
-    n = len(loop.plant.coordinates)
     records: Any = [
         stage.layout.on(state) if stage.layout is not None else empty(TunerMemory)
         for stage, state in zip(loop.stages(), states, strict=True)
     ]
-    records.append(CommandRow(*np.full((2, n), np.nan)))
+    vectors: Any = command
+    records.append(CommandRow(*vectors))
     return CycleMemory(*records)
 
 

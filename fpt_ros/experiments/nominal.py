@@ -13,5 +13,5 @@ def sample(trajectory: TrajectoryGenerator, times: list[float], dt: float = 0.0)
     for i, t in enumerate(times):
         out = [0.0] * c, [0.0] * c, [0.0] * c
         law.nominal(trajectory.constants.nominal, state, t, dt if i else 0.0, *out)
-        found.append(out)
+        found.append((out[0], out[1], out[trajectory.relaxation.order]))
     return found

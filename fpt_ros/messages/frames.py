@@ -41,7 +41,7 @@ class StateEstimate(NamedTuple):
 class Desired(NamedTuple):
     """Nominal motion and, as ``accelerations``, the desired response; ``names``: controlled now.
 
-    ``combined_error`` is s of :mod:`fpt_ros.error_relaxation`.
+    ``combined_error`` is s of :mod:`fpt_ros.relaxations`.
     """
 
     stamp: int

@@ -96,7 +96,7 @@ class Model:
         coefficients: physical parameters -> coefficients.
         effort: ``effort(coefficients, q, v, r, s, out)`` writes the n efforts that should cause the
             response r (length n; NaN where it is not prescribed) at (q, v). s is the combined error
-            (:mod:`fpt_ros.error_relaxation`), 0 where a coordinate is not controlled; only models
+            (:mod:`fpt_ros.relaxations`), 0 where a coordinate is not controlled; only models
             with a feedback of their own use it.
         regressor: ``regressor(q, v, w, a, out)`` writes the matrix Y (rows x coefficients, row
             after row) with effort = Y Theta for the acceleration a; w is the second velocity of
@@ -129,7 +129,7 @@ class Factory(Generic[Made]):
         parameters: all that it takes, words among them.
         make: ``make(values)`` with these, by name, complete and checked. Of the
             plant or model that it gives ``parameters`` may be empty; its coefficients may hold
-            whatever the laws need, an address for example (:mod:`fpt_ros.foreign`).
+            whatever the laws need, an address for example.
     """
 
     parameters: tuple[Parameter, ...]

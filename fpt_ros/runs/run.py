@@ -1,7 +1,7 @@
 """A run as arrays: what analysis works on, whether it comes from the engine or from a recording."""
 
 from array import array
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -11,7 +11,7 @@ from fpt_ros import __version__
 from fpt_ros.experiments.experiment import Experiment
 from fpt_ros.laws import Vector
 from fpt_ros.messages.frames import SECOND, Frame, Names
-from fpt_ros.messages.topics import DESIRED, JOINT_STATES, LOOP_TOPICS, Topic
+from fpt_ros.messages.topics import LOOP_TOPICS, Topic
 from fpt_ros.parameters import Value
 from fpt_ros.runs.latency import Latencies
 
@@ -55,48 +55,6 @@ class Series:
         return Series(
             self.stamps, names, {name: each[:, found] for name, each in self.vectors.items()}
         )
-
-
-def joined(parts: Sequence[Series]) -> Series:
-    """Series of the same names, one after the other."""
-    if len(parts) == 1:
-        return parts[0]
-    vectors = {
-        name: np.concatenate([part.vectors[name] for part in parts]) for name in parts[0].vectors
-    }
-    stamps = np.concatenate([part.stamps for part in parts])
-    return Series(stamps, parts[0].names, vectors)
-
-
-def frames(topics: Mapping[str, Series]) -> Iterator[tuple[Topic, Frame]]:
-    """The frames of a run in which no message is missing, in the order of events.
-
-    In ``desired`` a frame names the coordinates whose turn it is: those that have a response.
-    """
-    rows = {
-        topic: (
-            topics[topic.name].names,
-            [each.tolist() for each in topics[topic.name].vectors.values()],
-        )
-        for topic in LOOP_TOPICS
-        if topic.name in topics
-    }
-    stamps = topics[JOINT_STATES.name].stamps.tolist() if topics else []
-    for i, stamp in enumerate(stamps):
-        for topic, (names, lists) in rows.items():
-            if i >= len(lists[0]):
-                continue
-            vectors = [vector[i] for vector in lists]
-            if topic is DESIRED and any(x != x for x in vectors[2]):
-                at = [j for j, x in enumerate(vectors[2]) if x == x]
-                yield (
-                    topic,
-                    topic.frame(
-                        stamp, tuple(names[j] for j in at), *[[v[j] for j in at] for v in vectors]
-                    ),
-                )
-            else:
-                yield topic, topic.frame(stamp, names, *vectors)
 
 
 @dataclass(frozen=True)
@@ -168,8 +126,29 @@ class Collector:
             for vector in frame[2:]
         ]
 
+    @property
+    def held(self) -> int:
+        """Frames that are held."""
+        return sum(map(len, self._stamps.values()))
+
+    def complete(self) -> int:
+        """Stamp before which no more frames come, if each topic is in order [ns]; 0: not known."""
+        return min((stamps[-1] for stamps in self._stamps.values() if stamps), default=0)
+
+    def drain(self, before: int) -> dict[str, Series]:
+        """The frames before a stamp [ns], by topic; they are held no longer."""
+        result = {}
+        for name, series in self.topics().items():
+            count = int(np.searchsorted(series.stamps, before))
+            vectors = {key: matrix[:count] for key, matrix in series.vectors.items()}
+            result[name] = Series(series.stamps[:count], series.names, vectors)
+            del self._stamps[name][:count]
+            for numbers in self._numbers[name].values():
+                del numbers[: count * len(series.names)]
+        return result
+
     def topics(self) -> dict[str, Series]:
-        """The frames taken so far, by topic, in the order of the cycle."""
+        """The frames that are held, by topic, in the order of the cycle."""
         result = {}
         for topic in LOOP_TOPICS:
             if topic.name in self._stamps:

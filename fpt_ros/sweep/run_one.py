@@ -4,12 +4,12 @@ from collections.abc import Sequence
 from time import perf_counter
 from typing import cast
 
-from fpt_ros.analysis.metrics import summary
+from fpt_ros.analysis.metrics import Metrics
 from fpt_ros.cycle.stages import Loop
 from fpt_ros.engine.engine import Engine
 from fpt_ros.errors import BadInput, Diverged, RunFailed
 from fpt_ros.experiments.experiment import Experiment
-from fpt_ros.runs.run import Run, describe
+from fpt_ros.runs.run import describe
 from fpt_ros.sweep.ground import Experiments, experiments_of
 from fpt_ros.sweep.job import COMPLETE, DIVERGED, FAILED, INVALID, Job, Row
 from fpt_ros.sweep.metric import metric
@@ -47,12 +47,12 @@ def run_one(experiments: Experiments, number: int) -> Row:
 
 def simulate(experiment: Experiment, loop: Loop) -> dict[str, object]:
     """The summary of a run as ``fpt simulate`` gives it, and ``diverged_at`` [s]."""
-    engine = Engine(loop)
+    metrics = Metrics(experiment.nodes)
     reason, at = "", None
     try:
-        engine.run()
+        Engine(loop, consumers=[metrics]).run()
     except RunFailed as error:
         reason = str(error)
         at = error.time if isinstance(error, Diverged) else None
     info = describe(experiment, "in_process", reason)
-    return {**summary(Run(info, experiment.nodes, engine.topics())), "diverged_at": at}
+    return {**metrics.result(info), "diverged_at": at}

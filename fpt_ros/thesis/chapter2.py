@@ -2,8 +2,8 @@
 
 import numpy as np
 
-from fpt_ros.analysis import signals
-from fpt_ros.analysis.metrics import finite
+from fpt_ros.analysis import motions, signals
+from fpt_ros.analysis.sizes import finite
 from fpt_ros.thesis import drawings as draw
 from fpt_ros.thesis.claim import NO, ONLY_IF, YES, Claim, Picture, Runs, Setup, Table, Verdict
 from fpt_ros.thesis.measures import (
@@ -555,7 +555,7 @@ def _phase_space(runs: Runs) -> Verdict:
     measured: dict[str, float | str | None] = {}
     crest = {}
     for key in ("no RFPT", "RFPT"):
-        motion = signals.motion(runs[key], "q3")
+        motion = motions.motion(runs[key], "q3")
         late = signals.settled(runs[key], motion.time)
         e = (motion.nominal_velocity - motion.velocity)[late]
         crest[key] = float(np.abs(e).max()) / float(np.median(np.abs(e)))

@@ -6,8 +6,8 @@ from itertools import pairwise
 
 import numpy as np
 
-from fpt_ros.analysis import signals, style
-from fpt_ros.analysis.metrics import finite
+from fpt_ros.analysis import motions, signals, style
+from fpt_ros.analysis.sizes import finite
 from fpt_ros.parameters import Value
 from fpt_ros.runs.run import Array, Run
 from fpt_ros.thesis import drawings as draw
@@ -328,7 +328,7 @@ def _phase_distance(runs: Runs) -> Verdict:
     measured: dict[str, float | str | None] = {}
     distance = {}
     for key, run in runs.items():
-        motion = signals.motion(run, "v")
+        motion = motions.motion(run, "v")
         late = signals.settled(run, motion.time)
         apart = np.hypot(motion.error, motion.nominal_velocity - motion.velocity)[late]
         distance[key] = rms(apart)
@@ -440,7 +440,7 @@ def recovery_figure(runs: Runs) -> Drawn:
     cells = []
     for key in ("nonadaptive", "adaptive"):
         run = runs[key]
-        motion = signals.motion(run, "v")
+        motion = motions.motion(run, "v")
         time, w = signals.topic(run, "joint_states", "position", "w")
         _, w_dot = signals.topic(run, "joint_states", "velocity", "w")
         a, tau, b = (

@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fpt_ros.analysis import response_figures, signals, style
-from fpt_ros.analysis.metrics import finite
+from fpt_ros.analysis.sizes import finite
 from fpt_ros.plants import spherical_pendulum
 from fpt_ros.runs.run import Array, Run
 from fpt_ros.thesis import drawings as draw

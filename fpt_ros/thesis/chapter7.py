@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 
 from fpt_ros.analysis import signals, style
-from fpt_ros.analysis.metrics import finite
+from fpt_ros.analysis.sizes import finite
 from fpt_ros.analysis.tables import number_text
 from fpt_ros.runs.run import Run
 from fpt_ros.thesis import drawings as draw

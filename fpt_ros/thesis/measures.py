@@ -5,7 +5,7 @@ from collections.abc import Callable, Mapping, Sequence
 
 import numpy as np
 
-from fpt_ros.analysis import metrics, signals
+from fpt_ros.analysis import motions, signals, sizes
 from fpt_ros.analysis.tables import number_text, ratio_text
 from fpt_ros.runs.run import Array, Run, Series
 from fpt_ros.thesis.claim import NO, ONLY_IF, YES, Runs, Table, Verdict
@@ -40,13 +40,13 @@ def error(run: Run, name: str) -> tuple[Array, Array]:
     """Times [s] and tracking errors of a coordinate; all turns with time sharing."""
     if signals.parameter(run, "trajectory_generator", "time_sharing"):
         run = thinned(run)
-    motion = signals.motion(run, name)
+    motion = motions.motion(run, name)
     return motion.time, motion.error
 
 
 def rms(values: Array) -> float:
     """Root mean square; infinite where no number is left, as after a run that was lost at once."""
-    found = metrics.rms(values)
+    found = sizes.rms(values)
     return math.inf if found is None else found
 
 
@@ -192,7 +192,7 @@ def precise(
             ratios[name] = before / after if after > 0.0 else math.inf
             for key in (worse, better, *beside):
                 label = f"{name}, rms error, {key}{unit(runs[better], name)}"
-                measured[label] = metrics.finite(settled_rms(runs[key], name))
+                measured[label] = sizes.finite(settled_rms(runs[key], name))
         found = listed([f"{factor_text(ratio)} ({name})" for name, ratio in ratios.items()])
         held = [ratio >= factor for ratio in ratios.values()]
         status = YES if all(held) else ONLY_IF if any(held) else NO

@@ -23,8 +23,8 @@ class Trajectory:
             [rad/s] for harmonic shapes) are parameters of every trajectory, lists of c numbers.
         nominal: ``nominal(constants, state, t, dt, out_q, out_v, out_a)`` writes position, velocity
             and acceleration of each controlled coordinate at t [s], dt [s] after the cycle before
-            (0 in the first). For a plant that answers with a lower derivative, ``out_a`` is that
-            derivative of the nominal motion.
+            (0 in the first): whatever the order of the plant, from which the stage takes the
+            nominal response.
         parameters: its own, beside amplitude and frequency.
         state: initial state, of a motion that is integrated.
     """

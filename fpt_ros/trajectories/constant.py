@@ -13,11 +13,11 @@ def nominal(
     out_v: MutableVector,
     out_a: MutableVector,
 ) -> None:
-    """Write the amplitude as the value, and as the response wanted (a plant of order 0)."""
+    """Write the amplitude; it does not move."""
     for i in range(len(out_q)):
         out_q[i] = constants[i]
         out_v[i] = 0.0
-        out_a[i] = constants[i]
+        out_a[i] = 0.0
 
 
 CONSTANT = Trajectory(scales, nominal)

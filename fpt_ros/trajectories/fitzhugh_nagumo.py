@@ -31,7 +31,7 @@ def nominal(
     out_v: MutableVector,
     out_a: MutableVector,
 ) -> None:
-    """V and v' at t; ``state`` is (v, w)."""
+    """V, v' and v'' = v' - v^2 v' - w' at t; ``state`` is (v, w)."""
     scale, rate = constants[0], constants[1]
     a, tau, b, stimulus = constants[2], constants[3], constants[4], constants[5]
     v, w, h = state[0], state[1], rate * dt
@@ -42,7 +42,7 @@ def nominal(
     v_dot = v - v * v * v / 3.0 - w + stimulus
     out_q[0] = scale * v
     out_v[0] = scale * rate * v_dot
-    out_a[0] = scale * rate * v_dot
+    out_a[0] = scale * rate * rate * (v_dot - v * v * v_dot - (v + a - b * w) / tau)
 
 
 FITZHUGH_NAGUMO = Trajectory(prepare, nominal, PARAMETERS, (0.0, 0.0))

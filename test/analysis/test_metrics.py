@@ -4,8 +4,10 @@ import math
 import numpy as np
 import pytest
 
-from fpt_ros.analysis import signals
-from fpt_ros.analysis.metrics import Row, baselines, comparison, rms, summary
+from fpt_ros.analysis import motions, signals
+from fpt_ros.analysis.comparison import Row, baselines, comparison
+from fpt_ros.analysis.metrics import summary
+from fpt_ros.analysis.sizes import rms
 from fpt_ros.plants import PLANTS
 from fpt_ros.runs.run import Run
 
@@ -223,8 +225,8 @@ def test_realised_response_is_the_exact_plants_answer_to_the_same_cycles_force(m
 @pytest.mark.parametrize(("name", "expected"), [("tora", 4.0), ("vdp_rfpt", math.pi)])
 def test_period_of_the_nominal_motion(make, name, expected):
     run = make(name)
-    motions = [signals.motion(run, c) for c in signals.controlled(run)]
-    assert signals.period(motions) == pytest.approx(expected, rel=1e-2)
+    parts = [motions.motion(run, c) for c in signals.controlled(run)]
+    assert motions.period(parts) == pytest.approx(expected, rel=1e-2)
 
 
 def test_exact_coefficients_are_the_models_with_the_plants_parameters(make):

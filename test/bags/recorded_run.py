@@ -10,7 +10,8 @@ from fpt_ros.experiments.experiment import Experiment
 from fpt_ros.messages.frames import Frame
 from fpt_ros.messages.topics import Topic
 from fpt_ros.parameters import Value
-from fpt_ros.runs.run import Series, frames
+from fpt_ros.runs.chunks import frames
+from fpt_ros.runs.run import Series
 
 INFO = {
     "experiment": "tora",
@@ -55,8 +56,8 @@ class Recorded:
 
 def record(directory: Path) -> Recorded:
     tora = experiment.load("tora", duration=1.0)
+    whole = Whole()
     with EngineRecording(directory, tora) as recording:
-        whole = Whole()
         Engine(tora.loop(), consumers=(whole, recording)).run()
     topics = whole.topics()
     return Recorded(tora, list(frames(topics)), topics, directory)

@@ -326,7 +326,9 @@ def test_time_of_the_trajectory_counts_from_its_first_cycle():
 def test_the_trajectory_names_a_coordinate_that_the_plant_lacks():
     trajectory = stages().trajectory
     frame = StateEstimate(0, ("q1", "q2"), [0.0] * 2, [0.0] * 2, [NAN] * 2, [NAN] * 2)
-    with pytest.raises(BadInput, match=r"controlled: there is no coordinate 'q3', only q1, q2$"):
+    with pytest.raises(
+        BadInput, match=r"state_estimate: the joint 'q3' is not there, only q1, q2$"
+    ):
         trajectory.step(frame)
     assert indices(["b", "a"], ("a", "b", "c"), "x") == (1, 0)
 
@@ -386,9 +388,12 @@ def no_effort(coefficients, q, v, r, s, out):
 
 
 def test_the_deformer_refuses_a_coordinate_that_its_model_cannot_prescribe():
-    deformer = stages().deformer
+    values = experiment.load("tora").nodes["fpt_deformer"]
+    by_hand = FptDeformer({**values, "controlled": []})  # as its first message has them
     with pytest.raises(BadInput, match=r"tora cannot prescribe the response of 'q1', only of q2"):
-        deformer.step(estimate(0, [NAN] * 3), desired(0, ("q1",), [1.0]))
+        by_hand.step(estimate(0, [NAN] * 3), desired(0, ("q1",), [1.0]))
+    with pytest.raises(BadInput, match=r"desired: the joint 'q3' is not there, only q1$"):
+        stages().deformer.step(estimate(0, [NAN] * 3), desired(0, ("q1",), [1.0]))
 
 
 def test_deformation_starts_at_its_time_from_the_desired_response():

@@ -12,7 +12,8 @@ from fpt_ros.engine import engine as engine_module
 from fpt_ros.engine.engine import Engine
 from fpt_ros.errors import Diverged
 from fpt_ros.experiments import experiment
-from fpt_ros.runs.run import Collector, frames
+from fpt_ros.runs.chunks import frames
+from fpt_ros.runs.run import Collector
 
 CYCLES = 400
 

@@ -23,8 +23,12 @@ WITHOUT_TUNER = {
     "precursor": False,
     "precursor_guard": False,
     "realtime": False,
-    "cycle_time": 0.0,
 }
+
+
+def without_tuner(joints, controlled, dt):
+    """Parameters of a tuner that does nothing; it knows plant and motion all the same."""
+    return {**WITHOUT_TUNER, "joints": joints, "controlled": controlled, "cycle_time": dt}
 
 
 def refused(*args, **kwargs):
@@ -59,7 +63,8 @@ def test_the_base_file_is_complete_and_typed():
     assert plant["substeps"] == 1
     assert plant["limit.position"] == [1.5, 1000.0, 1000.0]
     assert loaded.nodes["fpt_deformer"]["approximate.theta"] == 5.0
-    assert loaded.nodes["parameter_tuner"] == WITHOUT_TUNER
+    tuner = without_tuner(["q1", "q2", "q3"], ["q3", "q2"], 0.001)
+    assert loaded.nodes["parameter_tuner"] == tuner
     assert loaded.about["settle_time"] == 4.0
     assert loaded.about["experiment"] == "tora"
     assert loaded.about["variant"] == "adaptive"
@@ -80,7 +85,7 @@ def test_a_variant_replaces_a_law_with_its_parameters():
     assert deformer["transformation"] == "none"
     assert not {"A", "K", "D", "guard", "form"} & deformer.keys()
     loaded = experiment.load("vdp_rfpt", "fixed_model")
-    assert loaded.nodes["parameter_tuner"] == WITHOUT_TUNER
+    assert loaded.nodes["parameter_tuner"] == without_tuner(["q1"], ["q1"], 0.001)
     assert loaded.nodes["fpt_deformer"]["await_tuning"] is False
     assert loaded.nodes["fpt_deformer"]["approximate.m"] == 9.0
     assert loaded.about["variant"] == "fixed_model"
@@ -311,7 +316,7 @@ def test_a_setting_has_a_form(setting):
         ("trajectory_generator.amplitude=[1.0]", "amplitude: 1 given, 2 needed (q3, q2)"),
         ("trajectory_generator.frequency=[]", "frequency: 0 given, 2 needed (q3, q2)"),
         ("trajectory_generator.lambda=0", "it takes a number > 0 [1/s]"),
-        ("trajectory_generator.error_relaxation=p", "it takes one of pd, pi, pid, value"),
+        ("trajectory_generator.error_relaxation=p", "none of the relaxations: pd, pi, pid, value"),
         ("trajectory_generator.controlled=[q1, q2]", "response of 'q1', only of q2, q3"),
         ("trajectory_generator.controlled=[q2, q2]", "it takes one or more different coordinates"),
         ("trajectory_generator.controlled=[]", "it takes one or more different coordinates"),

@@ -10,7 +10,8 @@ from fpt_ros.engine.engine import Engine
 from fpt_ros.experiments import experiment
 from fpt_ros.messages.frames import Desired, Tuning
 from fpt_ros.messages.topics import DESIRED, LOOP_TOPICS, TUNING
-from fpt_ros.runs.run import Collector, Run, describe, frames
+from fpt_ros.runs.chunks import frames
+from fpt_ros.runs.run import Collector, Run, describe
 
 NAN = math.nan
 

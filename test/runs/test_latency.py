@@ -6,8 +6,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from fpt_ros.analysis.comparison import comparison
 from fpt_ros.analysis.figures import charts
-from fpt_ros.analysis.metrics import comparison, summary
+from fpt_ros.analysis.metrics import summary
 from fpt_ros.analysis.report import write_report
 from fpt_ros.analysis.tables import content
 from fpt_ros.errors import BadInput

@@ -103,8 +103,8 @@ def test_a_list_of_another_length_is_refused():
 def test_a_constant_is_its_amplitude_at_rest():
     for t in (0.0, 7.0):
         q, v, a = nominal("constant", (-2.0, 3.0), (1.0, 1.0), t)
-        assert q.tolist() == a.tolist() == [-2.0, 3.0]
-        assert v.tolist() == [0.0, 0.0]
+        assert q.tolist() == [-2.0, 3.0]
+        assert v.tolist() == a.tolist() == [0.0, 0.0]
 
 
 def test_sine():

@@ -1,0 +1,43 @@
+"""Recordings of any length in constant memory: their numbers, and what their figures need."""
+
+from collections.abc import Mapping
+from pathlib import Path
+
+from fpt_ros.analysis.metrics import Metrics, Summary
+from fpt_ros.analysis.outline import Outline, Outliner
+from fpt_ros.bags.reader import play
+from fpt_ros.parameters import Values
+from fpt_ros.runs.chunks import Consumer
+
+
+def read_summary(path: Path) -> Summary:
+    """The numbers of a recorded run.
+
+    Raises:
+        BadInput: as :func:`~fpt_ros.bags.reader.read_run`.
+    """
+    made: list[Metrics] = []
+
+    def make(parameters: Mapping[str, Values]) -> list[Consumer]:
+        made.append(Metrics(parameters))
+        return [*made]
+
+    run = play(path, make)
+    return made[0].result(run.info, run.latency)
+
+
+def read_outline(path: Path) -> Outline:
+    """A recorded run in outline, with its numbers.
+
+    Raises:
+        BadInput: as :func:`~fpt_ros.bags.reader.read_run`.
+    """
+    made: list[tuple[Metrics, Outliner]] = []
+
+    def make(parameters: Mapping[str, Values]) -> list[Consumer]:
+        made.append((Metrics(parameters), Outliner(parameters)))
+        return [*made[0]]
+
+    run = play(path, make)
+    metrics, outliner = made[0]
+    return outliner.result(run.info, run.latency, metrics.result(run.info, run.latency))

@@ -1,0 +1,122 @@
+"""What ``fpt denoise`` tells: how the file was read, what was found, and what is odd about it."""
+
+import sys
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from rich.console import Console
+
+    from fpt_ros.analysis.compared_methods import Row
+    from fpt_ros.analysis.estimates import Estimate
+    from fpt_ros.analysis.signal_source import Source
+    from fpt_ros.denoising.offline import Result
+
+
+def numbers(source: "Source", found: "Estimate") -> dict[str, Any]:
+    """What was found of one signal: plain values, as JSON has them."""
+    from fpt_ros.analysis.compared_methods import success
+
+    return {
+        "signal": found.signal.name,
+        "unit": found.signal.unit,
+        "method": found.result.method,
+        "samples": len(found.measured),
+        "healed": int(found.healed.sum()),
+        "sigma": found.result.sigma,
+        **success(source, found),
+        "info": dict(found.result.info),
+    }
+
+
+def times(source: "Source") -> dict[str, Any] | None:
+    """The times: column, unit, step, and whether they are equally spaced."""
+    if source.axis is None:
+        return None
+    return {
+        "column": source.axis.column,
+        "unit": source.axis.unit,
+        "first": float(source.axis.values.min()),
+        "last": float(source.axis.values.max()),
+        "step": source.spacing.step,
+        "equally_spaced": source.spacing.times is None,
+    }
+
+
+def print_source(screen: "Console", source: "Source") -> None:
+    """How the file was read and its times; remarks go to standard error."""
+    if source.table.layout:
+        say(screen, f"{source.table.name}: {source.table.layout}")
+    axis, step = source.axis, source.spacing.step
+    if axis is not None:
+        unit = f" {axis.unit}" if axis.unit else ""
+        first, last = float(axis.values.min()), float(axis.values.max())
+        rate = f", {1.0 / (step * axis.second):.6g} Hz" if axis.second and step else ""
+        say(
+            screen,
+            f"times: {axis.column}, {first:g} to {last:g}{unit}, step {step:.6g}{unit}{rate}",
+        )
+    from fpt_ros.analysis.estimates import remarks
+
+    for remark in remarks(source):
+        print(f"fpt: note: {remark}", file=sys.stderr)
+
+
+def print_found(screen: "Console", source: "Source", found: "Estimate") -> None:
+    """What was found of one signal."""
+    from fpt_ros.analysis.compared_methods import success
+
+    unit = f" {found.signal.unit}" if found.signal.unit else ""
+    healed = f", {int(found.healed.sum())} of them healed" if found.healed.any() else ""
+    samples = f"{len(found.measured)} samples{healed}"
+    say(screen, f"{found.signal.name}: {samples}, noise {found.result.sigma:.4g}{unit}")
+    if source.clean is not None:
+        before, after, rmse = success(source, found).values()
+        say(screen, f"SNR {before:.4f} dB before, {after:.4f} dB after, RMSE {rmse:.4g}")
+    described = describe(found.result)
+    if described:
+        say(screen, f"{found.result.method}: {described}")
+
+
+def describe(result: "Result") -> str:
+    """What the method chose, and its parameters: the one place that words them.
+
+    Everything in ``info`` is told. What a result will carry besides (the course of sigma, LSB,
+    colour of the noise) is to be worded here.
+    """
+    return ", ".join(f"{name} {_word(value)}" for name, value in result.info.items())
+
+
+def _word(value: object) -> str:
+    return f"{value:.4g}" if isinstance(value, float) else str(value)
+
+
+def print_comparison(screen: "Console", source: "Source", rows: "Sequence[Row]") -> None:
+    """The table of all methods."""
+    from rich.markup import escape
+    from rich.table import Table
+
+    known = {"SNR [dB]": "snr_after"} if source.clean is not None else {}
+    columns = known | {
+        "residual rms": "residual_rms",
+        "robust": "residual_median",
+        "roughness": "roughness",
+        "CPU [s]": "cpu_time",
+    }
+    table = Table("method", *map(escape, columns), box=None)
+    for row in rows:
+        if "error" in row:
+            table.add_row(str(row["method"]), escape(str(row["error"])))
+            continue
+        table.add_row(str(row["method"]), *(f"{row[key]:.4g}" for key in columns.values()))
+    screen.print(table)
+    screen.print(
+        "robust: median size of the residual / 0.6745. The residual of a good estimate is the "
+        "noise: both near sigma where there are no impulses. "
+        "roughness: rms of the second difference."
+    )
+
+
+def say(screen: "Console", line: str) -> None:
+    """One line as it is: brackets are no markup."""
+    screen.print(line, markup=False, soft_wrap=True)

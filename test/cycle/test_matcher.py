@@ -1,0 +1,93 @@
+"""Messages of one cycle are found by stamp alone."""
+
+import itertools
+
+import pytest
+
+from fpt_ros.cycle.matcher import Matcher
+from fpt_ros.cycle.stage import Input
+from fpt_ros.errors import RunFailed
+from fpt_ros.messages.frames import Command, Desired, StateEstimate
+from fpt_ros.messages.topics import COMMAND, DESIRED, STATE_ESTIMATE
+
+MS = 1_000_000
+INPUTS = (Input(STATE_ESTIMATE), Input(DESIRED), Input(COMMAND, lag=1))
+
+
+def estimate(k):
+    return StateEstimate(k * MS, ("q",), *[[float(k)]] * 4)
+
+
+def desired(k):
+    return Desired(k * MS, ("q",), *[[float(k)]] * 4)
+
+
+def command(k):
+    return Command(k * MS, ("q",), [float(k)], [float(k)])
+
+
+def cycle(k):
+    """What a tuner needs in cycle k, with the number of its input."""
+    rest = [(2, command(k - 1))] if k else []
+    return [(0, estimate(k)), (1, desired(k)), *rest]
+
+
+def test_whatever_the_order_of_arrival_each_cycle_is_complete_once():
+    for orders in itertools.product(itertools.permutations(range(3)), repeat=2):
+        matcher = Matcher(INPUTS, MS)
+        assert [matcher.take(*each) for each in cycle(0)] == [
+            None,
+            [estimate(0), desired(0), None],
+        ]
+        for k, order in enumerate(orders, start=1):
+            answers = [matcher.take(*cycle(k)[at]) for at in order]
+            complete = [each for each in answers if each is not None]
+            assert complete == [[estimate(k), desired(k), command(k - 1)]]
+            assert matcher.acted == k * MS
+
+
+def test_no_stamp_is_acted_on_twice():
+    matcher = Matcher(INPUTS, MS)
+    for each in cycle(0):
+        matcher.take(*each)
+    assert [matcher.take(*each) for each in cycle(0)] == [None, None]
+
+
+def test_a_run_that_is_under_way_is_refused():
+    matcher = Matcher(INPUTS[:1], MS)
+    with pytest.raises(RunFailed, match=r"a run is under way here already \(t = 0.007 s\)"):
+        matcher.take(0, estimate(7))
+    matcher = Matcher(INPUTS[:1], MS)
+    assert matcher.take(0, estimate(0)) is not None
+    with pytest.raises(RunFailed, match="under way"):
+        matcher.take(0, estimate(2))
+
+
+def test_where_the_cycle_time_is_not_known_any_later_stamp_goes_on():
+    matcher = Matcher(INPUTS[:1])
+    assert matcher.take(0, estimate(0)) is not None
+    assert matcher.take(0, estimate(5)) is not None
+
+
+def test_older_messages_never_take_the_place_of_ours():
+    matcher = Matcher(INPUTS, MS)
+    for k in range(3):
+        for each in cycle(k):
+            matcher.take(*each)
+    assert matcher.take(0, estimate(0)) is None
+    for each in cycle(3)[:-1]:
+        matcher.take(*each)
+    assert matcher.take(2, command(2)) == [estimate(3), desired(3), command(2)]
+
+
+def test_in_real_time_the_newest_cycle_counts_and_a_lagging_input_may_be_absent():
+    matcher = Matcher(INPUTS, MS, realtime=True)
+    assert matcher.take(0, estimate(40)) is None
+    assert matcher.take(1, desired(40)) == [estimate(40), desired(40), None]
+    assert matcher.take(0, estimate(43)) is None
+    assert matcher.take(1, desired(43)) == [estimate(43), desired(43), None]
+
+
+def test_it_goes_on_where_a_node_had_been():
+    matcher = Matcher(INPUTS, MS, acted=6 * MS)
+    assert [matcher.take(*each) for each in cycle(7)][-1] == [estimate(7), desired(7), command(6)]

@@ -1,0 +1,62 @@
+"""The nominal response is the derivative of the nominal motion that the plant answers with."""
+
+import math
+
+import numpy as np
+import pytest
+from engine_runs import topics_of
+
+from fpt_ros.cycle.trajectory_generator import TrajectoryGenerator
+from fpt_ros.messages.frames import StateEstimate
+from fpt_ros.trajectories import TRAJECTORIES
+
+MS = 1_000_000
+NAN = [math.nan]
+
+
+def generator(trajectory, relaxation):
+    return TrajectoryGenerator(
+        {
+            "trajectory": trajectory,
+            "controlled": ["x"],
+            "amplitude": [0.7],
+            "frequency": [1.3],
+            "lambda": 4.0,
+            "error_relaxation": relaxation,
+        }
+    )
+
+
+def motion(trajectory, relaxation, cycles):
+    """Position, velocity and desired response of a plant that follows without any error."""
+    follower, leader = generator(trajectory, relaxation), generator(trajectory, relaxation)
+    rows = []
+    for k in range(cycles):
+        blind = StateEstimate(k * MS, ("x",), [0.0], [0.0], NAN, NAN)
+        nominal = leader.step(blind)
+        exact = StateEstimate(k * MS, ("x",), nominal.positions, nominal.velocities, NAN, NAN)
+        desired = follower.step(exact)
+        rows.append((desired.positions[0], desired.velocities[0], desired.accelerations[0]))
+    return np.array(rows).T
+
+
+@pytest.mark.parametrize("trajectory", TRAJECTORIES.names())
+@pytest.mark.parametrize(("relaxation", "order"), [("value", 0), ("pi", 1), ("pd", 2), ("pid", 2)])
+def test_every_motion_for_every_order(trajectory, relaxation, order):
+    q, v, response = motion(trajectory, relaxation, 1500)
+    expected = (q, np.gradient(q, 1e-3), np.gradient(np.gradient(q, 1e-3), 1e-3))[order]
+    inner = slice(2, -2)
+    # the spline's acceleration has corners, and what is integrated by Euler is exact to one step
+    tolerance = 4e-3 * max(1.0, np.abs(expected).max())
+    assert np.abs(response - expected)[inner].max() < tolerance
+    assert np.abs(v - np.gradient(q, 1e-3))[inner].max() < 4e-3
+
+
+def test_a_neuron_made_to_follow_a_sine_does_so():
+    """With q'' in the place of q' the error was 0.6, of the size of the motion."""
+    settings = ("trajectory_generator.trajectory=sine", "trajectory_generator.frequency=[0.2]")
+    topics = topics_of("fitzhugh_nagumo", "adaptive", settings, duration=60.0)
+    desired, measured = topics["desired"], topics["joint_states"]
+    error = desired.column("positions", "v") - measured.column("position", "v")
+    late = desired.time > 30.0
+    assert np.sqrt(np.mean(error[late] ** 2)) < 0.03
