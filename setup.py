@@ -39,6 +39,7 @@ EXTRAS = {
         "mcap-ros2-support",
         "colcon-common-extensions",
         "psutil",
+        "pandas",
         "setuptools<80",
         "wheel",
         *sorted({*FIGURES, *OFFLINE, *SWEEP, *CLUSTER, *PEERS}),
