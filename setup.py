@@ -1,8 +1,54 @@
-"""ament_python package: built by colcon on a stock Jazzy, installed by pip where there is none."""
+"""ament_python package: built by colcon on a stock Jazzy, installed by pip where there is none.
+
+The version is in package.xml; those of all packages it needs are in requirements.lock (make lock).
+"""
 
 from glob import glob
+from xml.etree import ElementTree
 
 from setuptools import find_packages, setup
+
+VERSION = ElementTree.parse("package.xml").findtext("version")
+
+FIGURES = ["matplotlib", "jinja2"]
+OFFLINE = ["scikit-fuzzy", "pyarrow", "matplotlib"]
+CLUSTER = ["dask", "distributed"]
+PEERS = ["scikit-image", "statsmodels"]
+SWEEP = ["optuna>=5", "pyarrow", "matplotlib"]
+# Jazzy for machines without it: wheels of the real thing (x86-64 Linux, CPython 3.10 to 3.14)
+ROS = [
+    "ros-jazzy-rclpy[fastrtps]",
+    "ros-jazzy-std-msgs",
+    "ros-jazzy-sensor-msgs",
+    "ros-jazzy-trajectory-msgs",
+    "ros-jazzy-diagnostic-msgs",
+]
+EXTRAS = {
+    "analysis": FIGURES,  # fpt report, demo, gain --plot
+    "sweep": SWEEP,  # fpt sweep, tune
+    "denoise": OFFLINE,  # fpt denoise
+    "thesis": sorted({*FIGURES, *OFFLINE}),  # fpt reproduce
+    "cluster": CLUSTER,  # fpt sweep --scheduler
+    "peers": PEERS,  # methods of other libraries in fpt denoise and reproduce
+    "ros": ROS,
+    "test": [
+        "pytest",
+        "pytest-xdist",
+        "pytest-timeout",
+        "hypothesis",
+        "mcap-ros2-support",
+        "colcon-common-extensions",
+        "psutil",
+        "pandas",
+        "setuptools<80",
+        "wheel",
+        *sorted({*FIGURES, *OFFLINE, *SWEEP, *CLUSTER, *PEERS}),
+    ],
+    "lint": ["ruff", "mypy", "pre-commit"],
+    "docs": ["sphinx", "furo", "myst-parser", "sphinx-autoapi"],
+    "bench": ["control"],
+    "lock": ["uv"],  # what make installs with
+}
 
 NODES = (
     "plant_simulator",
@@ -15,7 +61,7 @@ NODES = (
 
 setup(
     name="fpt_ros",
-    version="0.1.0",
+    version=VERSION,
     description="Adaptive control by Fixed Point Transformations as a ROS 2 node graph",
     license="Apache-2.0",
     author="The fpt_ros team",
@@ -37,29 +83,18 @@ setup(
         ("share/fpt_ros/launch", glob("launch/*.launch.py")),
     ],
     install_requires=[
-        "setuptools",
         "numpy",
         "scipy",
         "numba",
         "PyWavelets",
-        "pandas",
-        "scikit-fuzzy",
-        "optuna>=5",
-        "pyarrow",
+        "mcap>=1.6",
+        "rosbags>=0.10",
+        "zstandard",
         "ruamel.yaml",
         "typer",
         "rich",
-        "mcap>=1.6",
-        "rosbags>=0.10",
-        "matplotlib",
-        "jinja2",
-        "zstandard",
     ],
-    extras_require={
-        "test": ["pytest"],
-        "cluster": ["dask", "distributed"],
-        "peers": ["scikit-image", "statsmodels"],
-    },
+    extras_require=EXTRAS,
     zip_safe=False,
     entry_points={
         "console_scripts": [

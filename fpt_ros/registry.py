@@ -11,6 +11,7 @@ from importlib.metadata import EntryPoint, entry_points
 from typing import Generic, TypeVar
 
 from fpt_ros.errors import BadInput
+from fpt_ros.extras import remedy
 
 Law = TypeVar("Law")
 
@@ -90,7 +91,8 @@ def _load(group: str, called: str, name: str) -> object:
             f"{error.msg}"
         ) from error
     except Exception as error:  # whatever a module of somebody else's does at its import
-        why = str(error).splitlines()[0] if str(error) else type(error).__name__
+        first = str(error).splitlines()[0] if str(error) else type(error).__name__
+        why = remedy(error) or first
         raise BadInput(
             f"'{name}' of the {called} cannot be loaded, entry point {points[name].value}: {why}"
         ) from error

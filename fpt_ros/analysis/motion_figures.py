@@ -3,7 +3,8 @@
 from collections.abc import Sequence
 
 from fpt_ros.analysis import motions, signals, style
-from fpt_ros.analysis.labels import all_names, colour_of, followed
+from fpt_ros.analysis.labels import all_names
+from fpt_ros.analysis.legends import colour_of, followed
 from fpt_ros.analysis.outline import POSITION, outline
 from fpt_ros.analysis.panels import Panels
 from fpt_ros.runs.run import Run

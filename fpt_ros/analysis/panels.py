@@ -10,7 +10,8 @@ from matplotlib.legend_handler import HandlerTuple
 from matplotlib.ticker import MaxNLocator
 
 from fpt_ros.analysis import signals, style
-from fpt_ros.analysis.labels import Entry, run_labels
+from fpt_ros.analysis.labels import run_labels
+from fpt_ros.analysis.legends import Entry
 from fpt_ros.runs.run import Array, Run
 
 R = TypeVar("R", bound=Run)

@@ -5,7 +5,8 @@ from collections.abc import Sequence
 import numpy as np
 
 from fpt_ros.analysis import signals, style
-from fpt_ros.analysis.labels import all_names, colour_of, realised
+from fpt_ros.analysis.labels import all_names
+from fpt_ros.analysis.legends import colour_of, realised
 from fpt_ros.analysis.outline import (
     DEFORMED,
     DESIRED,

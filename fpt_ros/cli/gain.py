@@ -38,9 +38,12 @@ def gain(
     Example: fpt gain tora --plot /tmp/tora_gain.png
     """
     from fpt_ros.errors import BadInput
+    from fpt_ros.extras import need
 
     if plot is not None and plot.suffix.lower().removeprefix(".") not in KINDS:
         raise BadInput(f"--plot {plot}: it takes a name that ends with .png or .svg")
+    if plot is not None or out is not None:
+        need("analysis")
     experiment = experiment_of(name, variant, set_, None, None)
     from fpt_ros.gain.as_numbers import as_numbers
     from fpt_ros.gain.contraction import bounds

@@ -2,10 +2,13 @@
 
 import os
 import sys
+from collections.abc import Callable
+from functools import wraps
 from typing import Any
 
 import typer
 
+from fpt_ros import extras
 from fpt_ros.cli import (
     demo,
     denoise,
@@ -31,17 +34,38 @@ app = typer.Typer(
     rich_markup_mode=None,
     context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 100},
 )
-app.command("list", help=listing.list_experiments.__doc__)(listing.list_experiments)
-app.command("simulate", help=simulate.simulate.__doc__)(simulate.simulate)
-app.command("sweep", help=sweep.sweep.__doc__)(sweep.sweep)
-app.command("tune", help=tune.tune.__doc__)(tune.tune)
-app.command("run", help=run.run.__doc__)(run.run)
-app.command("report", help=report.report.__doc__)(report.report)
-app.command("gain", help=gain.gain.__doc__)(gain.gain)
-app.command("denoise", help=denoise.denoise.__doc__)(denoise.denoise)
-app.command("info", help=info.info.__doc__)(info.info)
-app.command("reproduce", help=reproduce.reproduce.__doc__)(reproduce.reproduce)
-app.command("demo", help=demo.demo.__doc__)(demo.demo)
+
+
+COMMANDS: tuple[tuple[str, Callable[..., None], str], ...] = (
+    ("list", listing.list_experiments, ""),
+    ("simulate", simulate.simulate, ""),
+    ("sweep", sweep.sweep, "sweep"),
+    ("tune", tune.tune, "sweep"),
+    ("run", run.run, ""),
+    ("report", report.report, "analysis"),
+    ("gain", gain.gain, ""),
+    ("denoise", denoise.denoise, "denoise"),
+    ("info", info.info, ""),
+    ("reproduce", reproduce.reproduce, "thesis"),
+    ("demo", demo.demo, "analysis"),
+)
+"""Name, function, and the extra of the installation without which it cannot work."""
+
+
+def _checked(function: Callable[..., None], extra: str) -> Callable[..., None]:
+    """The same command, which ends before it begins if its extra is not installed."""
+
+    @wraps(function)
+    def command(*arguments: Any, **options: Any) -> None:
+        if extra:
+            extras.need(extra)
+        function(*arguments, **options)
+
+    return command
+
+
+for _name, _function, _extra in COMMANDS:
+    app.command(_name, help=_function.__doc__)(_checked(_function, _extra))
 
 
 @app.callback(invoke_without_command=True)
@@ -72,6 +96,9 @@ def _main(arguments: list[str]) -> int:
     except Exception as error:
         if _was_interrupted(error):
             return _complain("interrupted", INTERRUPTED)
+        remedy = extras.remedy(error)
+        if remedy:
+            return _complain(remedy, 2)
         usage = getattr(error, "format_message", None)  # click's usage errors
         if usage is None:
             raise

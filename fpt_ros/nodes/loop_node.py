@@ -59,7 +59,7 @@ class LoopNode(Node):
         """Called once when everything is set up, before the first wait."""
 
     def on_deadline(self) -> None:
-        """Called when :attr:`deadline` has passed."""
+        """Called when ``deadline`` has passed."""
 
     def close(self) -> None:
         """Called once when the process ends, whatever the reason."""

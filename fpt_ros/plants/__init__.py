@@ -129,7 +129,7 @@ class Factory(Generic[Made]):
         parameters: all that it takes, words among them.
         make: ``make(values)`` with these, by name, complete and checked. Of the
             plant or model that it gives ``parameters`` may be empty; its coefficients may hold
-            whatever the laws need, an address for example (:mod:`fpt_ros.foreign`).
+            whatever the laws need, an address for example.
     """
 
     parameters: tuple[Parameter, ...]

@@ -16,6 +16,7 @@ from types import TracebackType
 from typing import Any
 
 from fpt_ros.errors import BadInput, RunFailed
+from fpt_ros.extras import need
 
 CONNECT = 10.0
 """Seconds that a scheduler has to answer."""
@@ -134,10 +135,9 @@ class ClusterPool(Pool):
     """The workers of a dask scheduler; its client is a drop-in executor."""
 
     def __init__(self, address: str) -> None:
-        try:
-            import distributed
-        except ImportError as error:
-            raise BadInput("--scheduler takes dask: pip install 'fpt_ros[cluster]'") from error
+        need("cluster")
+        import distributed
+
         logging.getLogger("distributed").setLevel(logging.CRITICAL)
         client: Any = distributed.Client  # dask has no types
         try:

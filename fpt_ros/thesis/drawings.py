@@ -7,7 +7,8 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from fpt_ros.analysis import motion_figures, response_figures, signals, style
-from fpt_ros.analysis.labels import all_names, colour_of
+from fpt_ros.analysis.labels import all_names
+from fpt_ros.analysis.legends import colour_of
 from fpt_ros.analysis.panels import Panels
 from fpt_ros.cycle.plant_simulator import PlantSimulator
 from fpt_ros.runs.run import Array, Run, Series

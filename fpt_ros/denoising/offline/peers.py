@@ -15,24 +15,25 @@ from scipy.signal import medfilt, savgol_filter
 
 from fpt_ros.denoising.offline import Mask, Method, Signal
 from fpt_ros.errors import BadInput
+from fpt_ros.extras import remedy
 from fpt_ros.parameters import Parameter, Values, integer, word
 
 WAVELET = Parameter("wavelet", "wavelet by its name in PyWavelets", "sym8")
 LEVEL = Parameter("level", "levels of the wavelet transform", 5, minimum=1, maximum=16)
 
 
-def _library(module: str, distribution: str) -> Any:
+def _library(module: str) -> Any:
     try:
         return import_module(module)
-    except ImportError:
-        raise BadInput(f"this needs {distribution}: pip install {distribution}") from None
+    except ModuleNotFoundError as error:
+        raise BadInput(remedy(error) or str(error)) from None
 
 
 def _scikit_image(kind: str) -> Method:
     """``denoise_wavelet``, which estimates the noise by itself."""
 
     def estimate(y: Signal, present: Mask, values: Values) -> Signal:
-        restoration = _library("skimage.restoration", "scikit-image")
+        restoration = _library("skimage.restoration")
         wavelet = word(values, "wavelet")
         if wavelet not in pywt.wavelist(kind="discrete"):
             raise BadInput(f"wavelet = '{wavelet}' is none of PyWavelets' discrete wavelets")
@@ -58,7 +59,7 @@ def _median_savgol(y: Signal, present: Mask, values: Values) -> Signal:
 
 
 def _lowess(y: Signal, present: Mask, values: Values) -> Signal:
-    smoothers = _library("statsmodels.nonparametric.smoothers_lowess", "statsmodels")
+    smoothers = _library("statsmodels.nonparametric.smoothers_lowess")
     share = min(1.0, integer(values, "window") / len(y))
     index = np.arange(len(y), dtype=np.float64)
     return np.asarray(smoothers.lowess(y, index, frac=share, it=3, return_sorted=False))

@@ -79,7 +79,7 @@ def test_a_trial_of_what_is_not_there_says_why(monkeypatch):
     monkeypatch.setitem(__import__("sys").modules, "skimage.restoration", None)
     trial = Trial(Noisy("sines"), "bayesshrink")
     scores = trial.perform("")
-    assert trial.ending(scores) == "this needs scikit-image: pip install scikit-image"
+    assert trial.ending(scores) == "skimage is not installed: pip install 'fpt_ros[peers]'"
     assert math.isnan(scores.mean("snr"))
 
 
