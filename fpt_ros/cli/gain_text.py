@@ -38,13 +38,20 @@ def print_gain(experiment: Experiment, found: Gain, result: dict[str, Any]) -> N
         print(line)
 
 
+def turning(found: Gain) -> str:
+    """Words for complex eigenvalues; empty where all are real."""
+    if not found.turn:
+        return ""
+    return f" (real parts; complex, up to {math.degrees(found.turn):.3g} degrees off the real axis)"
+
+
 def _remarks(experiment: Experiment, found: Gain, result: dict[str, Any]) -> list[str]:
     """What the table does not say."""
     least, greatest = found.eigenvalues
     tried = result["run"] or {}
     first = (
-        f"eigenvalues of the response {least:.5g} .. {greatest:.5g}, slope of the transformation "
-        f"{found.slope:.5g}"
+        f"eigenvalues of the response {least:.5g} .. {greatest:.5g}{turning(found)}, slope of the "
+        f"transformation {found.slope:.5g}"
     )
     if found.feedback:
         first += (
@@ -83,6 +90,11 @@ def _remarks(experiment: Experiment, found: Gain, result: dict[str, Any]) -> lis
         )
         advice += f" (a run with it: settled rms error {errors}; chatter {tried['chatter']:.3g})"
     lines.append(advice)
+    if tried.get("given"):
+        lines.append(
+            f"A = {found.given:g} is kept: with A = {tried['rejected']:g} the settled rms "
+            f"errors are {tried['given']['ratio']:.4g} times as large"
+        )
     if tried.get("reason"):
         whole = f"a run with A = {found.recommended:g}" if not found.calculated else "the run"
         lines.append(f"but {whole} did not end well: {tried['reason']}")

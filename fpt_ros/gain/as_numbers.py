@@ -39,6 +39,7 @@ def as_numbers(experiment: Experiment, found: Gain, tried: dict[str, Any]) -> di
         "largest_A_h": found.reach if math.isfinite(found.reach) else None,
         "recommended": tried.get("A") or found.recommended,
         "eigenvalues": list(found.eigenvalues),
+        "turn": found.turn,
         "slope": found.slope,
         "feedback": found.feedback,
         "behaviours": rows,

@@ -10,6 +10,8 @@ DOUBLING = "period doubling"
 DOUBLING_TO_CHAOS = "period doubling, chaos"
 CHAOS = "chaos"
 LEAVES = "leaves the domain"
+SPIRAL = "spirals into the solution"
+CIRCLES = "circles around the solution"
 OR_TWO_CYCLE = f" or {TWO_CYCLE}"
 
 

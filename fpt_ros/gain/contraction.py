@@ -13,6 +13,9 @@ q' itself alternates, and half of that is left: the limit is on the safe side by
 4.6575 instead of 4.699 for TORA, where an error of 1e-9 begins to grow.) A filter between plant and
 controller is left out.
 
+A complex eigenvalue turns the response error while it decays: it spirals into the solution for
+|A slope lambda| < 2 cos(arg lambda), fastest with half of that, and circles around it beyond.
+
 Beyond the linear limit, and for starts that are not close to the solution, the step's saturation
 counts: :mod:`fpt_ros.gain.map`.
 """
@@ -31,6 +34,10 @@ from fpt_ros.tuning import GAIN
 
 if TYPE_CHECKING:
     from fpt_ros.experiments.experiment import Experiment
+
+
+ANGLE = 1e-6
+"""Eigenvalues that are nearer to the real axis [rad] are real, but for rounding."""
 
 
 def bounds(experiment: "Experiment", points: Sequence[Point] | None = None) -> Gain:
@@ -64,6 +71,8 @@ def bounds(experiment: "Experiment", points: Sequence[Point] | None = None) -> G
     size = max(abs(least), abs(greatest))
     tiny = 1e-9 * size
     side = 1.0 if least >= -tiny else -1.0
+    angles = np.abs(np.angle(side * found[np.isfinite(found)]))
+    turn = float(angles.max()) if angles.max() > ANGLE else 0.0
     one_sign = size > 0.0 and (least >= -tiny or greatest <= tiny)
     constants = deformer.constants.transformation
     scalar = scalar_map(transformation, constants, side)
@@ -76,7 +85,7 @@ def bounds(experiment: "Experiment", points: Sequence[Point] | None = None) -> G
     scale = 1.0 / (steepest * (1.0 + fed_back)) if steepest > 0.0 else 1.0
     slope = transformation.slope(constants)
     sign = int(-math.copysign(1.0, slope * side)) if one_sign else 0
-    hard = scalar.hard_onset()
+    hard = scalar.hard_onset() if not turn else None
     hard_onset = hard.p * scale if hard is not None and one_sign else None
     linear = scalar.linear * scale if one_sign else 0.0
     best = MARGIN * min(0.5 * linear, hard_onset if hard_onset is not None else math.inf)
@@ -86,6 +95,7 @@ def bounds(experiment: "Experiment", points: Sequence[Point] | None = None) -> G
         calculated=loop.tuner.active and loop.tuner.law.tunes == GAIN,
         sign=sign,
         eigenvalues=(least, greatest),
+        turn=turn,
         feedback=fed_back,
         slope=slope,
         step_limit=transformation.step_limit(constants),
@@ -95,9 +105,9 @@ def bounds(experiment: "Experiment", points: Sequence[Point] | None = None) -> G
         loosest_limit=linear * steepest / flattest if flattest > 0.0 else math.inf,
         bare_limit=linear * (1.0 + fed_back),
         hard_onset=hard_onset,
-        doubling=times(scalar.doubling(), scale) if one_sign else None,
+        doubling=times(scalar.doubling(), scale) if one_sign and not turn else None,
         chaos=None,
-        domain_limit=times(scalar.domain_limit(), scale) if one_sign else None,
+        domain_limit=times(scalar.domain_limit(), scale) if one_sign and not turn else None,
         recommended=sign * _rounded_down(best),
         scale=scale,
         scalar=scalar,

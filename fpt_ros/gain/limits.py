@@ -8,6 +8,7 @@ import numpy as np
 
 from fpt_ros.gain.bands import (
     CHAOS,
+    CIRCLES,
     DOUBLING,
     DOUBLING_TO_CHAOS,
     LEAVES,
@@ -15,6 +16,7 @@ from fpt_ros.gain.bands import (
     OR_TWO_CYCLE,
     PRECURSOR,
     RUNS_AWAY,
+    SPIRAL,
     TWO_CYCLE,
     Band,
 )
@@ -34,6 +36,9 @@ class Gain:
         calculated: a tuner gives A, the parameter file's is not used.
         sign: 0 where no A contracts, because eigenvalues of both signs occur.
         eigenvalues: least and greatest (real parts) along the motion.
+        turn: largest angle of an eigenvalue with the real axis [rad]. Where there is one, response
+            errors turn as they decay: monotone is then the gain with which they decay fastest, and
+            what follows from the scalar map (hard onset, doubling, ...) is not there.
         feedback: of the desired response within the learning delay.
         slope: of the transformation's step.
         step_limit: largest step of r; inf: none.
@@ -55,6 +60,7 @@ class Gain:
     calculated: bool
     sign: int
     eigenvalues: tuple[float, float]
+    turn: float
     feedback: float
     slope: float
     step_limit: float
@@ -93,6 +99,8 @@ class Gain:
         if self.sign == 0:
             return (Band(0.0, math.inf, RUNS_AWAY),)
         limit, hard, domain = self.linear_limit, self.hard_onset, self.domain_limit
+        if self.turn:
+            return Band(0.0, limit, SPIRAL), Band(limit, math.inf, CIRCLES)
         ends = {0.0, self.monotone, limit, hard, self.doubling, self.chaos, domain}
         marks = sorted(end for end in ends if end is not None)
         pairs = zip(marks, [*marks[1:], math.inf], strict=True)
@@ -127,6 +135,8 @@ class Gain:
 
     def with_chaos(self) -> "Gain":
         """The same with ``chaos`` looked for, which takes a second."""
+        if self.turn:
+            return self
         p = self.scalar.chaos(times(self.doubling, 1.0 / self.scale), self.end_of_map)
         return replace(self, chaos=times(p, self.scale))
 
