@@ -12,7 +12,8 @@ from fpt_ros.errors import RunFailed
 
 def in_python(laws: tuple[Callable[..., Any], ...]) -> Callable[..., int]:
     """The loop with these laws, cycle by cycle: what Python raises ends a cycle as a NaN does."""
-    whole: Callable[..., int] = partial(cycle.run, *laws)
+    loop: Callable[..., int] = cycle.run
+    whole = partial(loop, *laws)
 
     def run(
         first: int,
