@@ -127,7 +127,7 @@ def law(function: Any, kind: Any) -> Any:
 
 
 REASON = re.compile(
-    r"^(?:\w+Error: )?((?:Untyped global name|No implementation of|Cannot |Use of unsupported|"
+    r"^\s*(?:\w+Error: )?((?:Untyped global name|No implementation of|Cannot |Use of unsupported|"
     r"Unknown attribute|No conversion|Unsupported|Invalid use|Unification|cannot |The use of).*"
     r"|.*(?:not supported|unsupported).*)$",
     re.MULTILINE | re.IGNORECASE,
