@@ -16,7 +16,8 @@ from typing import Any
 from fpt_ros import law_code
 from fpt_ros.cycle.stages import Loop
 from fpt_ros.errors import BadInput
-from fpt_ros.experiments.law_trials import Trial, laws_of, trials
+from fpt_ros.experiments.law_trial import Trial
+from fpt_ros.experiments.law_trials import laws_of, trials
 from fpt_ros.experiments.watched import Misuse, Watched
 from fpt_ros.notices import notice
 

@@ -1,43 +1,12 @@
 """Sample arguments for each law of a loop: at the initial motion, and a little beside it."""
 
-from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass
-from typing import Any
+from collections.abc import Iterator
 
 from fpt_ros.compensators import Observed
 from fpt_ros.cycle.stages import Loop
-from fpt_ros.experiments.watched import Watched
+from fpt_ros.experiments.law_trial import Point, Trial, keep, out, read, split
 from fpt_ros.parameters import word
 from fpt_ros.tuning import Seen
-
-READ, KEEP, OUT = "read", "keep", "out"
-
-Point = tuple[list[float], list[float]]
-"""Position and velocity of all coordinates."""
-
-
-@dataclass(frozen=True)
-class Trial:
-    """A law to be tried.
-
-    Attributes:
-        name: what messages call it: the parameter that chose it, its name, what it computes.
-        law: the function.
-        takes: names of its arguments, as its kind has them.
-        calls: fresh arguments for each call.
-        gives_number: it returns a number; others return nothing.
-    """
-
-    name: str
-    law: Callable[..., Any]
-    takes: tuple[str, ...]
-    calls: Callable[[], list[tuple[Any, ...]]]
-    gives_number: bool = False
-
-    def written(self) -> list[str]:
-        """Names of what it writes its results into."""
-        outs = [name for name in self.takes if name.startswith("out") or name == "acted"]
-        return outs or ["values"]
 
 
 def laws_of(loop: Loop) -> tuple[object, ...]:
@@ -80,22 +49,6 @@ def _points(loop: Loop) -> list[Point]:
     return [(q, v), (beside, [x + 0.2 * (i + 1) for i, x in enumerate(v)])]
 
 
-def _read(names: str, *vectors: Sequence[float]) -> tuple[Watched, ...]:
-    return tuple(Watched(n, x, READ) for n, x in zip(names.split(), vectors, strict=True))
-
-
-def _keep(name: str, values: Sequence[float]) -> Watched:
-    return Watched(name, values, KEEP)
-
-
-def _out(name: str, size: int) -> Watched:
-    return Watched(name, [0.0] * size, OUT)
-
-
-def _split(names: str) -> tuple[str, ...]:
-    return tuple(names.split())
-
-
 def _of_plant(loop: Loop, points: list[Point]) -> Iterator[Trial]:
     stage, plant, n = loop.plant, loop.plant.plant, len(loop.plant.coordinates)
     c, h, effort = stage.coefficients, stage.constants.h, [0.5] * n
@@ -113,9 +66,9 @@ def _of_plant(loop: Loop, points: list[Point]) -> Iterator[Trial]:
         yield Trial(
             f"{name} response",
             plant.response,
-            _split("coefficients q v effort out"),
+            split("coefficients q v effort out"),
             lambda: [
-                (*_read("coefficients q v effort", c, q, v, effort), _out("out", n))
+                (*read("coefficients q v effort", c, q, v, effort), out("out", n))
                 for q, v in points
             ],
         )
@@ -123,12 +76,12 @@ def _of_plant(loop: Loop, points: list[Point]) -> Iterator[Trial]:
         yield Trial(
             f"{name} start",
             plant.start,
-            _split("coefficients state q v"),
+            split("coefficients state q v"),
             lambda: [
                 (
-                    *_read("coefficients", c),
-                    _keep("state", [0.0] * plant.state),
-                    *_read("q v", q, v),
+                    *read("coefficients", c),
+                    keep("state", [0.0] * plant.state),
+                    *read("q v", q, v),
                 )
                 for q, v in points
             ],
@@ -137,17 +90,17 @@ def _of_plant(loop: Loop, points: list[Point]) -> Iterator[Trial]:
         yield Trial(
             f"{name} advance",
             plant.advance,
-            _split("coefficients state t dt effort external q v acted"),
+            split("coefficients state t dt effort external q v acted"),
             lambda: [
                 (
-                    *_read("coefficients", c),
-                    _keep("state", state_at(q, v)),
+                    *read("coefficients", c),
+                    keep("state", state_at(q, v)),
                     0.0,
                     h,
-                    *_read("effort external", effort, [0.0] * n),
-                    _keep("q", q),
-                    _keep("v", v),
-                    _out("acted", n),
+                    *read("effort external", effort, [0.0] * n),
+                    keep("q", q),
+                    keep("v", v),
+                    out("acted", n),
                 )
                 for q, v in points
             ],
@@ -155,11 +108,11 @@ def _of_plant(loop: Loop, points: list[Point]) -> Iterator[Trial]:
     yield Trial(
         f"plant_simulator.disturbance.kind {kind}: force",
         force,
-        _split("constants state t h q v"),
+        split("constants state t h q v"),
         lambda: [
             (
-                *_read("constants", acts),
-                _keep("state", [0.0] * stage.disturbance.state),
+                *read("constants", acts),
+                keep("state", [0.0] * stage.disturbance.state),
                 0.0,
                 h,
                 q[stage.constants.disturbed],
@@ -186,23 +139,23 @@ def _of_filter(loop: Loop, points: list[Point]) -> Iterator[Trial]:
     yield Trial(
         f"{name} start",
         filtering.start,
-        _split("constants state q v"),
+        split("constants state q v"),
         lambda: [
-            (*_read("constants", c), _keep("state", [0.0] * size), *_read("q v", q, v))
+            (*read("constants", c), keep("state", [0.0] * size), *read("q v", q, v))
             for q, v in points
         ],
     )
     yield Trial(
         f"{name} update",
         filtering.update,
-        _split("constants state dt q v out_q out_v out_response"),
+        split("constants state dt q v out_q out_v out_response"),
         lambda: [
             (
-                *_read("constants", c),
-                _keep("state", begun(*points[0])),
+                *read("constants", c),
+                keep("state", begun(*points[0])),
                 dt,
-                *_read("q v", q, v),
-                *(_out(each, n) for each in ("out_q", "out_v", "out_response")),
+                *read("q v", q, v),
+                *(out(each, n) for each in ("out_q", "out_v", "out_response")),
             )
             for q, v in points
         ],
@@ -215,14 +168,14 @@ def _of_trajectory(loop: Loop) -> Iterator[Trial]:
     yield Trial(
         f"trajectory_generator.trajectory {word(stage.values, 'trajectory')}: nominal",
         motion.nominal,
-        _split("constants state t dt out_q out_v out_a"),
+        split("constants state t dt out_q out_v out_a"),
         lambda: [
             (
-                *_read("constants", constants.nominal),
-                _keep("state", motion.state),
+                *read("constants", constants.nominal),
+                keep("state", motion.state),
                 t,
                 t,
-                *(_out(each, c) for each in ("out_q", "out_v", "out_a")),
+                *(out(each, c) for each in ("out_q", "out_v", "out_a")),
             )
             for t in (0.0, dt)
         ],
@@ -231,8 +184,8 @@ def _of_trajectory(loop: Loop) -> Iterator[Trial]:
         f"trajectory_generator.error_relaxation {word(stage.values, 'error_relaxation')}: "
         "prescribe",
         stage.relaxation.prescribe,
-        _split("constants nominal e e_dot e_integral"),
-        lambda: [(*_read("constants", constants.relaxation), 1.0, 0.1, 0.2, 0.01)],
+        split("constants nominal e e_dot e_integral"),
+        lambda: [(*read("constants", constants.relaxation), 1.0, 0.1, 0.2, 0.01)],
         gives_number=True,
     )
 
@@ -248,21 +201,21 @@ def _of_tuner(loop: Loop, points: list[Point]) -> Iterator[Trial]:
         yield Trial(
             f"parameter_tuner.model {word(stage.values, 'model')}: regressor",
             stage.regressor,
-            _split("q v w a out"),
-            lambda: [(*_read("q v w a", q, v, v, a), _out("out", rows * size)) for q, v in points],
+            split("q v w a out"),
+            lambda: [(*read("q v w a", q, v, v, a), out("out", rows * size)) for q, v in points],
         )
     fields = "seen.Y seen.error seen.tracking seen.h seen.r"
     yield Trial(
         f"parameter_tuner.method {method}: update",
         law.update,
-        _split("constants memory dt values seen"),
+        split("constants memory dt values seen"),
         lambda: [
             (
-                *_read("constants", constants.law),
-                _keep("memory", [0.0] * len(memory.law)),
+                *read("constants", constants.law),
+                keep("memory", [0.0] * len(memory.law)),
                 loop.plant.dt,
-                _keep("values", memory.values),
-                Seen(*_read(fields, [0.2] * (rows * size), [0.1] * rows, [*h, *h, *h], h, a)),
+                keep("values", memory.values),
+                Seen(*read(fields, [0.2] * (rows * size), [0.1] * rows, [*h, *h, *h], h, a)),
             )
         ],
     )
@@ -280,22 +233,22 @@ def _of_deformer(loop: Loop, points: list[Point]) -> Iterator[Trial]:
     yield Trial(
         f"fpt_deformer.transformation {word(stage.values, 'transformation')}: deform",
         stage.transformation.deform,
-        _split("constants r h f desired out"),
+        split("constants r h f desired out"),
         lambda: [
             (
-                *_read("constants r h f desired", constants.transformation, r, h, f, desired),
-                _out("out", c),
+                *read("constants r h f desired", constants.transformation, r, h, f, desired),
+                out("out", c),
             )
         ],
     )
     yield Trial(
         f"fpt_deformer.model {word(stage.values, 'model')}: effort",
         stage.model.effort,
-        _split("coefficients q v r s out"),
+        split("coefficients q v r s out"),
         lambda: [
             (
-                *_read("coefficients q v r s", constants.coefficients, q, v, asked, zeros),
-                _out("out", n),
+                *read("coefficients q v r s", constants.coefficients, q, v, asked, zeros),
+                out("out", n),
             )
             for q, v in points
         ],
@@ -307,14 +260,14 @@ def _of_deformer(loop: Loop, points: list[Point]) -> Iterator[Trial]:
     yield Trial(
         f"fpt_deformer.compensator.kind {word(stage.values, 'compensator.kind')}: compensate",
         stage.compensator.compensate,
-        _split("constants memory dt observed out"),
+        split("constants memory dt observed out"),
         lambda: [
             (
-                *_read("constants", constants.compensator),
-                _keep("memory", [0.0] * len(stage.memory.compensator)),
+                *read("constants", constants.compensator),
+                keep("memory", [0.0] * len(stage.memory.compensator)),
                 loop.plant.dt,
-                Observed(*_read(fields, q, v, seen, seen, zeros, asked, asked, zeros)),
-                _keep("out", [0.5] * n),
+                Observed(*read(fields, q, v, seen, seen, zeros, asked, asked, zeros)),
+                keep("out", [0.5] * n),
             )
             for (q, v), seen in zip(points, (nan, zeros), strict=True)
         ],
