@@ -7,10 +7,10 @@ import numpy as np
 
 from fpt_ros.cycle import loop as cycle
 from fpt_ros.cycle.loop import CycleConstants, CycleMemory, CycleWork
-from fpt_ros.cycle.parameter_tuner import TunerConstants, TunerMemory, TunerWork
 from fpt_ros.cycle.rows import CommandRow
 from fpt_ros.cycle.run import Run
 from fpt_ros.cycle.stages import Loop
+from fpt_ros.cycle.tuning import TunerConstants, TunerMemory, TunerWork
 from fpt_ros.engine import compiled
 from fpt_ros.engine.buffers import Buffers, Whole
 from fpt_ros.engine.in_python import in_python

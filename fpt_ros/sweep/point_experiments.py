@@ -12,7 +12,8 @@ from dataclasses import dataclass, replace
 from fpt_ros.cycle.stages import Loop
 from fpt_ros.errors import BadInput
 from fpt_ros.experiments import description
-from fpt_ros.experiments.experiment import SECTIONS, Experiment
+from fpt_ros.experiments.experiment import Experiment
+from fpt_ros.experiments.sections import SECTIONS
 from fpt_ros.parameters import Parameter, Value, resolve
 from fpt_ros.sweep.grid import Point, is_number
 from fpt_ros.sweep.job import Job
