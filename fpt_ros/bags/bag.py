@@ -111,14 +111,18 @@ class Bag:
 
     def _through(self, scan: Scan | SqliteScan) -> Iterator[Block]:
         for block in scan.blocks():
-            self.kinds.update({k: v for k, v in scan.kinds.items() if k not in self.kinds})
-            if isinstance(scan, Scan):
-                self.attachments.update(scan.attachments)
-                self.metadata.update(scan.metadata)
+            self._learn(scan)
             yield block
-        self.kinds.update({k: v for k, v in scan.kinds.items() if k not in self.kinds})
+        self._learn(scan)
         self.missing += scan.damage
         self._cut = self._cut or scan.cut
+
+    def _learn(self, scan: Scan | SqliteScan) -> None:
+        """Take over what the file says of itself so far."""
+        self.kinds = {**scan.kinds, **self.kinds}
+        if isinstance(scan, Scan):
+            self.attachments.update(scan.attachments)
+            self.metadata.update(scan.metadata)
 
     def _count(self) -> None:
         """Compare with what the recording says of itself."""

@@ -9,6 +9,7 @@ from typing import NamedTuple, Self
 
 from fpt_ros import __version__
 from fpt_ros.bags import parameter_text
+from fpt_ros.bags.bag import END
 from fpt_ros.bags.mcap_file import McapFile
 from fpt_ros.bags.schemas import Schema, offered_qos, schema, yaml_text
 from fpt_ros.errors import BadInput, RunFailed
@@ -16,9 +17,6 @@ from fpt_ros.parameters import Values
 
 INFO = "fpt_ros"
 """Metadata record in front: what the run is."""
-
-END = "fpt_ros.end"
-"""Metadata record behind the messages: how the run ended."""
 
 FLUSH_PERIOD = 1.0
 """Messages are this old [s] at most, by the wall clock, when they go to the file."""
