@@ -32,7 +32,7 @@ def plant_units(
     """Of position and effort, by coordinate, of the plant that a recording of ours names."""
     values = parameters.get("plant_simulator", {})
     try:
-        plant = made(PLANTS.get(str(values.get("plant", ""))), values)
+        plant = made(PLANTS[str(values["plant"])], values, "exact")
     except (BadInput, KeyError, TypeError):
         return {}, {}
     names = plant.coordinates

@@ -9,9 +9,12 @@ import typer
 from fpt_ros.cli import (
     demo,
     denoise,
+    diff,
+    export,
     gain,
     info,
     listing,
+    recover,
     report,
     reproduce,
     run,
@@ -40,6 +43,9 @@ app.command("report", help=report.report.__doc__)(report.report)
 app.command("gain", help=gain.gain.__doc__)(gain.gain)
 app.command("denoise", help=denoise.denoise.__doc__)(denoise.denoise)
 app.command("info", help=info.info.__doc__)(info.info)
+app.command("recover", help=recover.recover.__doc__)(recover.recover)
+app.command("diff", help=diff.diff.__doc__)(diff.diff)
+app.command("export", help=export.export.__doc__)(export.export)
 app.command("reproduce", help=reproduce.reproduce.__doc__)(reproduce.reproduce)
 app.command("demo", help=demo.demo.__doc__)(demo.demo)
 
