@@ -70,8 +70,9 @@ def recover(
                 writer.message(source, stamp, bytes(block.data[start:end]))
             written += block.count
             progress(written)
-        if not bag.kinds and not bag.attachments:
-            raise BadInput(f"{path}: nothing in it can be read: {'; '.join(bag.missing)}")
+        if not written:
+            why = "; ".join(bag.missing) or "it has no messages"
+            raise BadInput(f"{path}: there is nothing to recover: {why}")
         custom = writer.finish()
         write_metadata(part, [writer.part(name)], custom)
         part.rename(directory)

@@ -20,6 +20,10 @@ if TYPE_CHECKING:
     import pandas as pd
 
 
+_OF_NO_UNIT = ("combined_error.", "deformed.", "accelerations.")
+"""Vectors of the loop whose unit depends on the order of the plant."""
+
+
 @dataclass(frozen=True)
 class Tables:
     """All topics of a recording.
@@ -116,7 +120,8 @@ def _table(
                 if name not in data:
                     data[name] = _empty(parts, column.name, own.dtype, count)
                 data[name][part.at] = own
-            found_units[name] = units.unit(source.type, column, *known)
+            own_words = name.startswith(_OF_NO_UNIT)
+            found_units[name] = "" if own_words else units.unit(source.type, column, *known)
         for path, text in part.layout.texts.items():
             if not (text or path in data) or path.partition("[")[0] in columns.JOINTS:
                 continue
