@@ -3,7 +3,7 @@
 import struct
 import zlib
 
-import lz4.frame
+import lz4.frame  # type: ignore[import-untyped]
 import zstandard
 
 from fpt_ros.bags.records import CHANNEL, HEAD, MESSAGE, MESSAGE_HEAD, SCHEMA
@@ -79,7 +79,9 @@ def _decompress(compression: bytes, packed: memoryview, size: int) -> bytes:
     raise BadChunk(f"it is compressed by '{compression.decode(errors='replace')}', not known here")
 
 
-def split(data: bytes, whole: bool = True) -> tuple[list[tuple[int, int, int]], dict[int, list[int]]]:
+def split(
+    data: bytes, whole: bool = True
+) -> tuple[list[tuple[int, int, int]], dict[int, list[int]]]:
     """Schemas and channels of a chunk, and where its messages lie.
 
     Args:

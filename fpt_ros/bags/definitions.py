@@ -39,7 +39,9 @@ def of(source: Source, kind: Kind) -> Definitions:
             return {**known, **_PARSERS[kind.form](text, name)}
         except Exception as error:  # whatever the parsers stumble over
             if name not in known:
-                raise BadInput(f"{source.topic}: the definition of {name} cannot be read") from error
+                raise BadInput(
+                    f"{source.topic}: the definition of {name} cannot be read"
+                ) from error
     if name not in known:
         raise BadInput(
             f"{source.topic}: the recording does not say what a {name or 'message without a type'} "

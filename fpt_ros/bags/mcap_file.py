@@ -46,7 +46,7 @@ class McapFile:
         self._file = os.open(path, os.O_WRONLY | os.O_CREAT | os.O_EXCL, 0o666)
         self._written, self._crc = 0, 0
         self._chunk = bytearray()
-        self._rows: dict[int, "array[int]"] = {}
+        self._rows: dict[int, array[int]] = {}
         self._announced = b""
         self._schemas: dict[str, int] = {}
         self._summary = Summary()
@@ -109,9 +109,7 @@ class McapFile:
             self._side.announce(out)
         return channel.id
 
-    def message(
-        self, channel: int, stamp: int, data: bytes, published: int | None = None
-    ) -> None:
+    def message(self, channel: int, stamp: int, data: bytes, published: int | None = None) -> None:
         """Add a message; ``stamp`` [ns] is its log time, and publish time if none is given."""
         sequence = self.counts[channel]
         record = _MESSAGE.pack(

@@ -154,7 +154,9 @@ class _Gatherer:
         fits = known.fits(messages)
         if fits.any():
             own = messages if fits.all() else messages[fits]
-            numbers = [known.numbers(own, leaf) for leaf in known.leaves if (leaf.count or 1) < MANY]
+            numbers = [
+                known.numbers(own, leaf) for leaf in known.leaves if (leaf.count or 1) < MANY
+            ]
             self._found[number].append((at[fits], numbers))
         return messages[~fits], at[~fits]
 
@@ -191,5 +193,3 @@ def _native(numbers: NDArray[Any], is_bool: bool) -> NDArray[Any]:
     if is_bool:
         return numbers != 0
     return numbers.astype(numbers.dtype.newbyteorder("="), copy=False)
-
-

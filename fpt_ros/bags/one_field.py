@@ -129,9 +129,11 @@ class _Picked:
         if dot and last in names:
             return any(leaf.path == path for leaf in part.layout.leaves)
         path, element = columns.split_element(self._field)
-        return element is not None and any(
-            leaf.path == path and leaf.count == 0 for leaf in part.layout.leaves
-        ) and element < max(len(names), self._longest(path))
+        return (
+            element is not None
+            and any(leaf.path == path and leaf.count == 0 for leaf in part.layout.leaves)
+            and element < max(len(names), self._longest(path))
+        )
 
     def _longest(self, path: str) -> int:
         return max(
@@ -145,10 +147,8 @@ class _Picked:
         """Where a place is not always the same joint's."""
         if self._joint is None and len(self._owners) > 1:
             names = ", ".join(self._owners)
-            return [
-                f"{self._field} of {self._topic} is not always the same joint's ({names}): "
-                "--joint NAME takes one by its name"
-            ]
+            changing = f"{self._field} of {self._topic} is not always the same joint's ({names})"
+            return [f"{changing}: --joint NAME takes one by its name"]
         return []
 
     def complaint(self) -> str:

@@ -56,12 +56,14 @@ class Scan:
         self._schemas: dict[int, Schema] = {}
         self._data = mapped(path) if data is None else data
         self._checked_to = 0
+        self._ahead: list[tuple[int, int, int]] = []
 
     def blocks(self) -> Iterator[Block]:
         """All messages; when it is through, the attributes say the rest."""
         data, name = self._data, self.path.name
         if data[: len(MAGIC)] != MAGIC:
             self.damage.append(f"{name} does not begin as an MCAP file")
+        self._read_ahead()
         loose: dict[int, list[int]] = {}
         count, ended = 0, False
         for step in records.walk(data):
@@ -86,7 +88,28 @@ class Scan:
             yield self._block(data, loose)
         self.cut = self.cut or not ended
         if not ended and not self.damage:
-            self.damage.append(f"{name} was cut: it ends without its index, after {len(data)} bytes")
+            self.damage.append(
+                f"{name} was cut: it ends without its index, after {len(data)} bytes"
+            )
+
+    def _read_ahead(self) -> None:
+        """Take the topics from the index too: the chunk that announces them may be damaged."""
+        data, size = self._data, len(self._data)
+        footer = size - len(MAGIC) - records.HEAD.size - 20
+        if footer < 0 or data[footer] != records.FOOTER or data[-len(MAGIC) :] != MAGIC:
+            return
+        (start,) = struct.unpack_from("<Q", data, footer + records.HEAD.size)
+        if not len(MAGIC) <= start < footer:
+            return
+        for step in records.walk(data[:footer], start):
+            if isinstance(step, Record) and step.opcode in (records.SCHEMA, records.CHANNEL):
+                self._ahead.append((step.opcode, step.at, step.end))
+
+    def _learn_ahead(self) -> None:
+        """What the index says of the topics."""
+        for opcode, start, end in self._ahead:
+            self._take(opcode, self._data[start:end], start)
+        self._ahead = []
 
     def _gap(self, gap: Gap) -> Iterator[Block]:
         """Note what is damaged, and take what there is of a chunk that was being written."""
@@ -129,6 +152,8 @@ class Scan:
     def _block(self, data: bytes | memoryview, found: dict[int, list[int]]) -> Block:
         rows: dict[Source, Rows] = {}
         for channel, flat in found.items():
+            if channel not in self.sources:
+                self._learn_ahead()
             source = self.sources.get(channel)
             if source is None:
                 self.damage.append(
@@ -150,7 +175,7 @@ class Scan:
             stream = ReadDataStream(BytesIO(body))
             if opcode == records.SCHEMA:
                 schema = Schema.read(stream)
-                self._schemas[schema.id] = schema
+                self._schemas.setdefault(schema.id, schema)
             elif opcode == records.CHANNEL:
                 self._announce(Channel.read(stream))
             elif opcode == records.ATTACHMENT:
@@ -170,6 +195,8 @@ class Scan:
             self.damage.append(f"{self.path.name}: byte {start} is damaged: {error}")
 
     def _announce(self, channel: Channel) -> None:
+        if channel.id in self.sources:
+            return
         schema = self._schemas.get(channel.schema_id)
         source = Source(channel.topic, schema.name if schema else "")
         self.sources[channel.id] = source
@@ -221,5 +248,3 @@ def mapped(path: Path) -> memoryview:
     except (OSError, ValueError) as error:
         reason = getattr(error, "strerror", None) or str(error)
         raise BadInput(f"{path} cannot be read: {reason}") from error
-
-

@@ -1,4 +1,4 @@
-"""Reading a .db3 file, as rosbag2 wrote it before MCAP, without its indexes where they are damaged."""
+"""Reading a .db3 file, as rosbag2 wrote it before MCAP."""
 
 import sqlite3
 from collections.abc import Iterator

@@ -49,9 +49,8 @@ def run(
 
     Example: fpt run tora --record /tmp/tora && fpt report /tmp/tora
     """
-    from fpt_ros.cli.output import print_json, print_result
-
     from fpt_ros.bags.split import Split as Parsed
+    from fpt_ros.cli.output import print_json, print_result
     from fpt_ros.experiments.description import NODE
 
     experiment = experiment_of(name, variant, set_, duration, seed)
