@@ -69,7 +69,7 @@ def test_of_a_whole_recording_is_the_same_recording(tmp_path: Path) -> None:
 def test_nothing_to_recover_leaves_nothing(tmp_path: Path) -> None:
     path = recording(tmp_path / "bag")
     path.write_bytes(path.read_bytes()[:900])
-    with pytest.raises(BadInput, match="there is nothing to recover: bag_0.mcap was cut"):
+    with pytest.raises(BadInput, match=r"there is nothing to recover: bag_0\.mcap was cut"):
         recover(path, tmp_path / "out")
     assert [each.name for each in tmp_path.iterdir()] == ["bag"]
     with pytest.raises(BadInput, match="exists: --out takes the name of a new directory"):
@@ -134,7 +134,7 @@ def test_a_directory_that_was_removed(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("text", ["1KB", "MB", "10", "-5s", "10 parsecs", "0s"])
 def test_words_for_a_split_that_are_none(text: str) -> None:
-    with pytest.raises(BadInput, match="--split .*: it takes a size"):
+    with pytest.raises(BadInput, match=r"--split .*: it takes a size"):
         Split.parse(text)
 
 
