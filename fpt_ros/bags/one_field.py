@@ -85,6 +85,7 @@ class _Picked:
 
     def __init__(self, topic: str, field: str, joint: str | None, reading: Reading) -> None:
         self._topic, self._field, self._joint, self._reading = topic, field, joint, reading
+        self._parts = sorted(reading.parts, key=lambda part: int(part.at.min()))
         self._owners: dict[str, None] = {}
 
     def values(self) -> tuple[NDArray[np.float64], NDArray[np.bool_]]:
@@ -92,7 +93,7 @@ class _Picked:
         count = len(self._reading.stamps)
         values = np.full(count, np.nan)
         present = np.zeros(count, dtype=bool)
-        for part in self._reading.parts:
+        for part in self._parts:
             found = self._find(part)
             if found is not None:
                 path, element, owner = found
@@ -105,18 +106,15 @@ class _Picked:
 
     def _find(self, part: Part) -> tuple[str, int, str] | None:
         names = columns.joints(part.layout)
-        if self._joint is not None:
-            path, element = self._field, None
-        else:
-            path, element = columns.split_element(self._field)
+        wanted = self._field if self._joint is None else f"{self._field}.{self._joint}"
+        path, place = columns.split_element(wanted)
         for column in columns.columns(part):
-            if self._joint is not None or element is None:
-                wanted = f"{path}.{self._joint}" if self._joint is not None else path
-                if column.name == wanted:
-                    return column.path, column.element, column.joint
-            elif column.path == path and column.element == element:
-                named = names[element] if element < len(names) else ""
-                return column.path, column.element, named
+            by_place = column.path == path and column.element == place and self._joint is None
+            if column.name == wanted or by_place:
+                own = column.joint or (
+                    names[place] if place is not None and place < len(names) else ""
+                )
+                return column.path, column.element, own
         return None
 
     def _names_it(self, part: Part) -> bool:
