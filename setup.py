@@ -26,6 +26,7 @@ ROS = [
 EXTRAS = {
     "analysis": FIGURES,  # fpt report, demo, gain --plot
     "sweep": SWEEP,  # fpt sweep, tune
+    "export": ["pandas", "pyarrow"],  # fpt export, fpt_ros.load
     "denoise": OFFLINE,  # fpt denoise
     "thesis": sorted({*FIGURES, *OFFLINE}),  # fpt reproduce
     "cluster": CLUSTER,  # fpt sweep --scheduler

@@ -213,14 +213,14 @@ class Outliner:
             self._about.parameters,
             self._topics,
             latency,
-            self._end,
-            numbers,
-            moved,
-            {name: self._errors.get(name, Size()).rms for name in controlled},
-            {key: _thinned_curve(thinned) for key, thinned in curves.items()},
-            motions.period(map(_motion, close.values())) or motions.period(moved.values()),
-            near,
-            None if whole else self._window,
+            end=self._end,
+            numbers=numbers,
+            motions=moved,
+            settled_rms={name: self._errors.get(name, Size()).rms for name in controlled},
+            curves={key: _thinned_curve(thinned) for key, thinned in curves.items()},
+            period=motions.period(map(_motion, close.values())) or motions.period(moved.values()),
+            near=near,
+            window=None if whole else self._window,
         )
 
 

@@ -9,36 +9,43 @@ from typing import NamedTuple, Self
 
 from fpt_ros import __version__
 from fpt_ros.bags import parameter_text
+from fpt_ros.bags.bag import COUNT, END
+from fpt_ros.bags.files import METADATA
 from fpt_ros.bags.mcap_file import McapFile
+from fpt_ros.bags.metadata import Part, TopicPart, write_metadata
 from fpt_ros.bags.schemas import Schema, offered_qos, schema, yaml_text
+from fpt_ros.bags.split import Split
 from fpt_ros.errors import BadInput, RunFailed
 from fpt_ros.parameters import Values
 
 INFO = "fpt_ros"
 """Metadata record in front: what the run is."""
 
-END = "fpt_ros.end"
-"""Metadata record behind the messages: how the run ended."""
+NEVER = Split()
 
 FLUSH_PERIOD = 1.0
 """Messages are this old [s] at most, by the wall clock, when they go to the file."""
 
 
 class _Topic(NamedTuple):
-    channel: int
     schema: Schema
     qos: list[dict[str, object]]
 
 
 class BagWriter:
-    """Records one run. Its directory is ``NAME/NAME_0.mcap`` and ``NAME/metadata.yaml``.
+    """Records one run: ``NAME/NAME_0.mcap``, where it is split _1, _2, and ``NAME/metadata.yaml``.
 
     The file is whole after every chunk: a process that is killed loses what it wrote in the last
-    second at most. Not shared between threads.
+    second at most, and with ``aside`` nothing. Not shared between threads.
     """
 
     def __init__(
-        self, directory: Path, parameters: Mapping[str, Values], info: Mapping[str, str]
+        self,
+        directory: Path,
+        parameters: Mapping[str, Values],
+        info: Mapping[str, str],
+        split: Split = NEVER,
+        aside: bool = False,
     ) -> None:
         """Create the directory, and put what is known at the start in front of the file.
 
@@ -46,26 +53,50 @@ class BagWriter:
             directory: must not exist; its parents are created.
             parameters: complete, of every node.
             info: experiment, variant, engine, version, namespace, ...
+            split: when to go on in another file.
+            aside: keep every message in a side file until its chunk is written.
 
         Raises:
             BadInput: the directory exists or cannot be created.
         """
         self.directory = directory
-        self.path = directory / f"{directory.name}_0.mcap"
         self.closed = False
-        self._info = dict(info)
+        self._info, self._split, self._aside = dict(info), split, aside
         self._topics: dict[str, _Topic] = {}
-        text = parameter_text.to_text(parameters)
+        self._channels: dict[str, int] = {}
+        self._parts: list[Part] = []
+        self._text = parameter_text.to_text(parameters)
         _make(directory)
         try:
-            self._file = McapFile(self.path, "ros2", f"fpt_ros {__version__}")
+            self._file = self._opened()
         except OSError as error:
-            directory.rmdir()
+            with contextlib.suppress(OSError):
+                directory.rmdir()
             raise BadInput(f"{self.path} cannot be created: {error.strerror}") from error
         with self._writing(self.path):
-            self._file.attach(parameter_text.NAME, "application/yaml", text.encode())
-            self._file.metadata(INFO, self._info)
+            self._begin()
         self._flushed = monotonic()
+
+    @property
+    def path(self) -> Path:
+        """The file that is being written."""
+        return self.directory / f"{self.directory.name}_{len(self._parts)}.mcap"
+
+    def set_parameters(self, parameters: Mapping[str, Values]) -> None:
+        """Parameters that are known only now, as those of nodes started by hand.
+
+        Readers take these in the place of the ones from the start.
+
+        Raises:
+            RunFailed: the file cannot be written, or has been closed.
+        """
+        self._check_open()
+        text = parameter_text.to_text(parameters)
+        if text == self._text:
+            return
+        self._text = text
+        with self._writing(self.path):
+            self._file.attach(parameter_text.NAME, "application/yaml", text.encode())
 
     def add_topic(self, topic: str, type: str, depth: int | None = None) -> None:
         """Announce a topic; one that is written without is announced by its first message.
@@ -81,12 +112,9 @@ class BagWriter:
         """
         if topic in self._topics:
             return
-        about, qos = schema(type), offered_qos(topic, depth)
-        # rosbags compares this text with metadata.yaml, and finds no messages if they differ
-        metadata = {"offered_qos_profiles": yaml_text(qos), "topic_type_hash": about.hash}
+        self._topics[topic] = _Topic(schema(type), offered_qos(topic, depth))
         with self._writing(self.path):
-            channel = self._file.add_channel(topic, type, about.text, metadata)
-        self._topics[topic] = _Topic(channel, about, qos)
+            self._announce(topic)
 
     def write(self, topic: str, type: str, stamp: int, data: bytes) -> None:
         """Record a message.
@@ -102,15 +130,21 @@ class BagWriter:
             RunFailed: the file cannot be written, or has been closed.
         """
         if self.closed:
-            raise RunFailed(f"{self.path} is closed: nothing more can be recorded")
-        if topic not in self._topics:
+            self._check_open()
+        channel = self._channels.get(topic)
+        if channel is None:
             self.add_topic(topic, type)
+            channel = self._channels[topic]
+        file = self._file
         try:
-            self._file.message(self._topics[topic].channel, stamp, data)
+            file.message(channel, stamp, data)
         except OSError as error:
             raise self._failed(self.path, error) from error
         if monotonic() - self._flushed > FLUSH_PERIOD:
             self.flush()
+        if self._split is not NEVER and self._split.is_due(file.size, stamp - file.span[0]):
+            with self._writing(self.path):
+                self._go_on()
 
     def flush(self) -> None:
         """Hand all messages so far to the operating system; for when the run pauses.
@@ -136,17 +170,10 @@ class BagWriter:
             return
         end = {"complete": "false" if reason else "true", "reason": reason}
         with self._writing(self.path):
-            self._file.flush()
-            counts = self._counts()
-            if not self._file.finished:
-                messages = {f"messages {topic}": str(count) for topic, count in counts.items()}
-                self._file.metadata(END, {**end, **messages})
-            self._file.finish()
-        path = self.directory / "metadata.yaml"
-        part = path.with_suffix(".yaml.part")
+            self._end_part(end)
+        path = self.directory / METADATA
         with self._writing(path):
-            part.write_text(yaml_text(self._metadata(counts, end)), encoding="utf-8")
-            part.replace(path)
+            write_metadata(self.directory, self._parts, {**self._info, **end})
         self.closed = True
 
     def __enter__(self) -> Self:
@@ -166,44 +193,47 @@ class BagWriter:
         with contextlib.suppress(RunFailed):
             self.close(reason or type(error).__name__)
 
-    def _counts(self) -> dict[str, int]:
-        counts = self._file.counts
-        return {topic: counts.get(known.channel, 0) for topic, known in self._topics.items()}
+    def _opened(self) -> McapFile:
+        return McapFile(self.path, "ros2", f"fpt_ros {__version__}", self._aside)
 
-    def _metadata(self, counts: Mapping[str, int], end: Mapping[str, str]) -> dict[str, object]:
-        """``metadata.yaml`` of rosbag2, version 9."""
-        first, last = self._file.span
-        span = {
-            "duration": {"nanoseconds": last - first},
-            "starting_time": {"nanoseconds_since_epoch": first},
-            "message_count": sum(counts.values()),
+    def _begin(self) -> None:
+        """What stands in front of a file's messages."""
+        self._file.attach(parameter_text.NAME, "application/yaml", self._text.encode())
+        self._file.metadata(INFO, self._info)
+
+    def _announce(self, topic: str) -> None:
+        about, qos = self._topics[topic]
+        # rosbags compares this text with metadata.yaml, and finds no messages if they differ
+        metadata = {"offered_qos_profiles": yaml_text(qos), "topic_type_hash": about.hash}
+        self._channels[topic] = self._file.add_channel(
+            topic, about.type, about.text.encode(), metadata
+        )
+
+    def _go_on(self) -> None:
+        """In another file, which can be read without this one."""
+        following = self.directory / f"{self.directory.name}_{len(self._parts) + 1}.mcap"
+        self._end_part({"complete": "false", "reason": f"it goes on in {following.name}"})
+        self._file = self._opened()
+        self._begin()
+        for topic in self._topics:
+            self._announce(topic)
+
+    def _end_part(self, end: Mapping[str, str]) -> None:
+        file, path = self._file, self.path
+        counts = {topic: file.counts[channel] for topic, channel in self._channels.items()}
+        if not file.finished:
+            messages = {f"{COUNT}{topic}": str(count) for topic, count in counts.items()}
+            file.metadata(END, {**end, **messages})
+        file.finish()
+        topics = {
+            topic: TopicPart(about.type, qos, about.hash, counts[topic])
+            for topic, (about, qos) in self._topics.items()
         }
-        topics = [
-            {
-                "topic_metadata": {
-                    "name": topic,
-                    "type": known.schema.type,
-                    "serialization_format": "cdr",
-                    "offered_qos_profiles": known.qos,
-                    "type_description_hash": known.schema.hash,
-                },
-                "message_count": counts[topic],
-            }
-            for topic, known in self._topics.items()
-        ]
-        content = {
-            "version": 9,
-            "storage_identifier": "mcap",
-            **span,
-            "topics_with_message_count": topics,
-            "compression_format": "",
-            "compression_mode": "",
-            "relative_file_paths": [self.path.name],
-            "files": [{"path": self.path.name, **span}],
-            "custom_data": {**self._info, **end},
-            "ros_distro": "jazzy",
-        }
-        return {"rosbag2_bagfile_information": content}
+        self._parts.append(Part(path.name, *file.span, topics))
+
+    def _check_open(self) -> None:
+        if self.closed:
+            raise RunFailed(f"{self.path} is closed: nothing more can be recorded")
 
     @contextlib.contextmanager
     def _writing(self, path: Path) -> Iterator[None]:

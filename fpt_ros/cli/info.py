@@ -7,7 +7,7 @@ import typer
 
 from fpt_ros.cli.options import Json
 
-Bag = Annotated[Path, typer.Argument(metavar="BAG", help="A recording.")]
+Bag = Annotated[Path, typer.Argument(metavar="BAG", help="A recording, whoever made it.")]
 
 
 def info(bag: Bag, json: Json = False) -> None:
@@ -27,9 +27,13 @@ def info(bag: Bag, json: Json = False) -> None:
 
     out = console()
     parameters, topics = content.pop("parameters"), content.pop("topics")
+    lines = {"missing": content.pop("missing"), "note": content.pop("notes")}
     table = Table(box=None, show_header=False, pad_edge=False)
     for key, value in content.items():
         table.add_row(key, Text(str(value)))
+    for key, found in lines.items():
+        for line in found:
+            table.add_row(key, Text(line))
     out.print(table)
     counts = Table("topic", "type", "messages", box=None, pad_edge=False)
     for topic, each in topics.items():

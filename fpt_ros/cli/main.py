@@ -12,9 +12,12 @@ from fpt_ros import extras
 from fpt_ros.cli import (
     demo,
     denoise,
+    diff,
+    export,
     gain,
     info,
     listing,
+    recover,
     report,
     reproduce,
     run,
@@ -46,6 +49,9 @@ COMMANDS: tuple[tuple[str, Callable[..., None], str], ...] = (
     ("gain", gain.gain, ""),
     ("denoise", denoise.denoise, "denoise"),
     ("info", info.info, ""),
+    ("recover", recover.recover, ""),
+    ("diff", diff.diff, ""),
+    ("export", export.export, "export"),
     ("reproduce", reproduce.reproduce, "thesis"),
     ("demo", demo.demo, "analysis"),
 )

@@ -22,8 +22,11 @@ def report(bags: Bags, out: Out = None, json: Json = False) -> None:
     from fpt_ros.analysis.report import write_report
     from fpt_ros.analysis.tables import console_table
     from fpt_ros.cli.output import console, print_json
+    from fpt_ros.cli.recordings import say
 
     runs = [read_outline(bag) for bag in bags]
+    for bag, run in zip(bags, runs, strict=True):
+        say(bag, filter(None, run.info.get("missing", "").split("; ")))
     first = bags[0].absolute()
     page = write_report(runs, out or first.with_name(first.stem + "-report"))
     results = [

@@ -25,6 +25,10 @@ if TYPE_CHECKING:
 
 Composed = Annotated[bool, typer.Option("--composed", help="The five nodes in one process.")]
 Realtime = Annotated[bool, typer.Option("--realtime", help="On the wall clock, not in lockstep.")]
+Split = Annotated[
+    str,
+    typer.Option(metavar="SIZE|TIME", help="Go on in another file, as after 100MB or 60s."),
+]
 Namespace = Annotated[str, typer.Option(metavar="NS", help="ROS namespace of all nodes.")]
 
 
@@ -38,15 +42,21 @@ def run(
     composed: Composed = False,
     realtime: Realtime = False,
     namespace: Namespace = "",
+    split: Split = "",
     json: Json = False,
 ) -> None:
     """Run an experiment as a graph of ROS 2 nodes over DDS, a process each.
 
     Example: fpt run tora --record /tmp/tora && fpt report /tmp/tora
     """
-    from fpt_ros.cli.output import print_result
+    from fpt_ros.bags.split import Split as Parsed
+    from fpt_ros.cli.output import print_json, print_result
+    from fpt_ros.experiments.description import NODE
 
     experiment = experiment_of(name, variant, set_, duration, seed)
+    if split:
+        Parsed.parse(split)
+        experiment = experiment.with_values(NODE, split=split)
     _check_namespace(namespace)
     if record is not None:
         check_new_directory(record)
@@ -56,6 +66,17 @@ def run(
         result, failure = run_recorded(experiment, bag, composed, realtime, namespace)
     if result is not None:
         print_result({**result, "bag": str(record) if record is not None else None}, json)
+    elif json and failure is not None:
+        print_json(
+            {
+                "experiment": experiment.name,
+                "variant": experiment.variant,
+                "engine": "graph",
+                "complete": False,
+                "reason": str(failure),
+                "bag": str(record) if record is not None else None,
+            }
+        )
     if failure is not None:
         raise failure
 

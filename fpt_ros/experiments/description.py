@@ -21,6 +21,12 @@ PARAMETERS = (
     ),
     Parameter("cycles", "length of the run; 0: not known", 0, minimum=0, live=False),
     Parameter("directory", "where to record; must not exist", "", live=False),
+    Parameter(
+        "split",
+        "go on in another file after a size or a duration, as in 100MB or 60s; empty: never",
+        "",
+        live=False,
+    ),
     Parameter("await_tuning", "a tuner is in the loop: its topic is part of it", False, live=False),
     REALTIME,
 )

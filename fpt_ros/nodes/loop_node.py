@@ -29,6 +29,7 @@ class LoopNode(Node):
         loop_subscriptions: the ones that the spinner waits for and takes.
         finished: set when the node's work is done; the process then ends with status 0.
         deadline: monotonic time [s] at which :meth:`on_deadline` is due, or None.
+        level: of what it tells on /diagnostics.
     """
 
     def __init__(self, name: str) -> None:
@@ -37,6 +38,7 @@ class LoopNode(Node):
         self.finished = False
         self.deadline: float | None = None
         self.cycles_done = 0
+        self.level = DiagnosticStatus.OK
         self._diagnostics = self.create_publisher(DiagnosticArray, "/diagnostics", 10)
         self._reported = monotonic(), 0
 
@@ -80,7 +82,7 @@ class LoopNode(Node):
         summary, values = self.health()
         values = {"cycles": self.cycles_done, "rate [1/s]": f"{rate:.1f}", **values}
         status = DiagnosticStatus(
-            level=DiagnosticStatus.OK,
+            level=self.level,
             name=self.get_fully_qualified_name().lstrip("/"),
             hardware_id="fpt_ros",
             message=summary,

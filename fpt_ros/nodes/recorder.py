@@ -1,7 +1,11 @@
 """The recorder: every message of every topic, as the bytes that came, into MCAP.
 
-It also tells the plant how far it has come (:mod:`fpt_ros.nodes.recorded_until`), and checks what
-it gets: message k of every loop topic carries the same stamp, or the recording is not complete.
+It begins when it hears all nodes of the loop and knows the parameters that they really have; until
+then it does not tell the plant how far it has come (:mod:`fpt_ros.nodes.recorded_until`), which
+waits. What it has told is on disk, or in the hands of the operating system. It checks what it gets:
+message k of every loop topic carries the same stamp, or the recording is not complete.
+
+Where the recording cannot be written any more, the run goes on, and the recorder says so.
 """
 
 import os
@@ -13,7 +17,10 @@ from datetime import datetime
 from functools import reduce
 from pathlib import Path
 
+from diagnostic_msgs.msg import DiagnosticStatus
+
 from fpt_ros import __version__
+from fpt_ros.bags.split import Split
 from fpt_ros.bags.writer import BagWriter
 from fpt_ros.cycle.matcher import under_way
 from fpt_ros.errors import RunFailed
@@ -26,6 +33,7 @@ from fpt_ros.nodes.loop_node import LoopNode, message_class
 from fpt_ros.nodes.qos import loop_qos
 from fpt_ros.nodes.recorded_until import RECORDED_UNTIL, TIME, encode_time
 from fpt_ros.nodes.ros_parameters import declare
+from fpt_ros.nodes.snapshot import Snapshot
 from fpt_ros.nodes.stage_node import CHANGES
 from fpt_ros.parameters import integer, word
 
@@ -34,6 +42,7 @@ ACKNOWLEDGE = 8
 
 SIDE_TOPICS = {
     "/diagnostics": "diagnostic_msgs/msg/DiagnosticArray",
+    "/rosout": "rcl_interfaces/msg/Log",
     "/parameter_events": "rcl_interfaces/msg/ParameterEvent",
     CHANGES: "rcl_interfaces/msg/ParameterEvent",
 }
@@ -62,9 +71,12 @@ class Recorder(LoopNode):
         directory = word(values, "directory") or (
             f"{experiment}_{variant}_{datetime.now():%Y-%m-%d_%H-%M-%S}"
         )
+        self._parameters = {
+            **complete(reduce(ParameterFile.overlay, map(read, files), ParameterFile()))
+        }
         self._writer = BagWriter(
             Path(directory),
-            complete(reduce(ParameterFile.overlay, map(read, files), ParameterFile())),
+            self._parameters,
             {
                 "experiment": experiment,
                 "variant": variant,
@@ -73,10 +85,15 @@ class Recorder(LoopNode):
                 "namespace": self.get_namespace(),
                 "clock": "lockstep" if self._lockstep else "realtime",
             },
+            Split.parse(word(values, "split")),
+            aside=True,
         )
         self._stamps = array("q")
         self._counts: list[int] = []
         self._acknowledged = 0
+        self._lost: RunFailed | None = None
+        self._snapshot: Snapshot | None = None
+        self._started = False
         self._until = self.create_publisher(message_class(TIME), RECORDED_UNTIL, loop_qos(1))
         for topic in LOOP_TOPICS:
             if topic != TUNING or values.get("await_tuning") is True:
@@ -91,8 +108,28 @@ class Recorder(LoopNode):
         self._writer.add_topic(resolved, kind, DEPTH)
         self.subscribe_raw(name, kind, 4 * DEPTH, self._on_loop_message(index, resolved, kind))
 
+    def _write(self, name: str, kind: str, stamp: int, data: bytes) -> None:
+        """Record a message; where that cannot be done any more, say so once."""
+        if self._lost is not None:
+            return
+        try:
+            self._writer.write(name, kind, stamp, data)
+        except RunFailed as error:
+            self._lost = RunFailed(
+                f"the recording ends after {self._done()} cycles, the run went on: {error}"
+            )
+            self.level = DiagnosticStatus.ERROR
+            self.get_logger().error(str(self._lost))
+            self._publish_diagnostics(0.0)
+
+    def health(self) -> tuple[str, dict[str, object]]:
+        """Whether it records."""
+        if self._lost is not None:
+            return str(self._lost), {}
+        return ("recording" if self._started else "waiting for the nodes of the loop"), {}
+
     def _on_loop_message(self, index: int, name: str, kind: str) -> Callable[[bytes], None]:
-        write, counts, stamps = self._writer.write, self._counts, self._stamps
+        write, counts, stamps = self._write, self._counts, self._stamps
 
         def record(data: bytes) -> None:
             seconds, nanoseconds = _STAMP.unpack_from(data, 4)
@@ -125,7 +162,7 @@ class Recorder(LoopNode):
 
     def _acknowledge(self) -> None:
         done = self._done()
-        if done > self._acknowledged:
+        if self._started and done > self._acknowledged:
             self._acknowledged = self.cycles_done = done
             self._until.publish(encode_time(self._stamps[done - 1]))
 
@@ -135,19 +172,59 @@ class Recorder(LoopNode):
 
         def record(data: bytes) -> None:
             stamp = self._stamps[-1] if self._stamps else 0
-            self._writer.write(resolved, kind, stamp, data)
+            self._write(resolved, kind, stamp, data)
 
-        self.create_subscription(message_class(kind), name, record, 100, raw=True)
+        # /rosout is latched: what was said before we came is recorded too
+        qos = loop_qos(1000) if name == "/rosout" else 100
+        subscription = self.create_subscription(message_class(kind), name, record, qos, raw=True)
+        if name == CHANGES:
+            self._changes = subscription
 
     def housekeeping(self) -> None:
-        """Acknowledge the last few cycles too."""
+        """Begin when all is there; acknowledge the last few cycles too."""
         super().housekeeping()
+        if not self._started:
+            self._try_to_start()
         self._acknowledge()
 
+    def _try_to_start(self) -> None:
+        if self._snapshot is None:
+            if self._matched():
+                self._snapshot = Snapshot(self, self._loop_nodes())
+            return
+        if not self._snapshot.is_done():
+            return
+        for name, values in self._snapshot.parameters.items():
+            self._parameters[name] = {**self._parameters.get(name, {}), **values}
+        for problem in self._snapshot.problems:
+            self.get_logger().warning(problem)
+        if self._lost is None:
+            self._writer.set_parameters(self._parameters)
+        self._started = True
+
+    def _matched(self) -> bool:
+        """Whether it hears all nodes: each loop topic, and all changes of parameters."""
+        heard = all(each.get_publisher_count() for each in self.loop_subscriptions)
+        return heard and self._changes.get_publisher_count() >= self.count_publishers(CHANGES)
+
+    def _loop_nodes(self) -> list[str]:
+        """Fully qualified names of the nodes that publish the loop's topics."""
+        found: dict[str, None] = {}
+        for each in self.loop_subscriptions:
+            for about in self.get_publishers_info_by_topic(each.topic_name):
+                found[f"{about.node_namespace.rstrip('/')}/{about.node_name}"] = None
+        return list(found)
+
     def close(self) -> None:
-        """Finish the file; say why, if the run did not end by itself."""
+        """Finish the file; say why, if the run did not end by itself.
+
+        Raises:
+            RunFailed: the recording could not be written to the end.
+        """
         error = sys.exc_info()[1]
         reason = _reason() or (str(error) if error is not None else "")
+        if self._lost is not None:
+            raise self._lost
         if not reason and len(self._stamps) < self._cycles:
             reason = f"the recorder was stopped after {len(self._stamps)} of {self._cycles} cycles"
         if not reason and self._lockstep and len(set(self._counts)) > 1:

@@ -13,6 +13,7 @@ from fpt_ros.laws import Vector
 from fpt_ros.messages.frames import SECOND, Frame, Names
 from fpt_ros.messages.topics import LOOP_TOPICS, Topic
 from fpt_ros.parameters import Value
+from fpt_ros.runs.changes import Change
 from fpt_ros.runs.latency import Latencies
 
 Array = NDArray[np.float64]
@@ -66,12 +67,14 @@ class Run:
         parameters: of every node, complete, as at the start.
         topics: by topic name; one that nobody published is absent.
         latency: from sensor to command, of a run in real time.
+        changes: of parameters in flight, in the order in which they came.
     """
 
     info: Mapping[str, str]
     parameters: Mapping[str, Mapping[str, Value]]
     topics: Mapping[str, Series]
     latency: Latencies | None = None
+    changes: tuple[Change, ...] = ()
 
 
 def describe(experiment: Experiment, engine: str, reason: str) -> dict[str, str]:

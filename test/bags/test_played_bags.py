@@ -5,14 +5,14 @@ import pytest
 
 from fpt_ros.analysis.metrics import summary
 from fpt_ros.analysis.recorded import read_outline, read_summary
-from fpt_ros.bags import player
+from fpt_ros.bags import reader
 from fpt_ros.bags.reader import play, read_run
 from fpt_ros.runs.chunks import joined
 
 
 @pytest.fixture(autouse=True)
 def small_chunks(monkeypatch):
-    monkeypatch.setattr(player, "FRAMES", 700)
+    monkeypatch.setattr(reader, "CHUNK", 170)
 
 
 def test_the_chunks_of_a_recording_are_the_recording(recorded):

@@ -1,0 +1,55 @@
+"""What the types of a recording's topics look like: as it says itself, or as Jazzy has them."""
+
+from collections.abc import Callable
+from functools import cache
+
+from rosbags.typesys import Stores, get_types_from_idl, get_types_from_msg, get_typestore
+
+from fpt_ros.bags.block import Kind, Source
+from fpt_ros.bags.layout import Definitions
+from fpt_ros.errors import BadInput
+
+_PARSERS: dict[str, Callable[[str, str], Definitions]] = {
+    "ros2msg": get_types_from_msg,
+    "ros2idl": lambda text, name: get_types_from_idl(text),
+}
+
+
+def full_name(type: str) -> str:
+    """``package/msg/Name``, where some tools write ``package/Name``."""
+    package, slash, name = type.partition("/")
+    return f"{package}/msg/{name}" if slash and "/" not in name else type
+
+
+def of(source: Source, kind: Kind) -> Definitions:
+    """Fields by type, of a topic's type and of those that it is made of.
+
+    Raises:
+        BadInput: its messages are written in another way, or its type is not known.
+    """
+    name = full_name(source.type)
+    if kind.encoding not in ("cdr", ""):
+        raise BadInput(
+            f"{source.topic} is written as {kind.encoding}: topics written as cdr and json are read"
+        )
+    known = _jazzy()
+    if kind.definition and kind.form in _PARSERS:
+        try:
+            text = kind.definition.decode()
+            return {**known, **_PARSERS[kind.form](text, name)}
+        except Exception as error:  # whatever the parsers stumble over
+            if name not in known:
+                raise BadInput(
+                    f"{source.topic}: the definition of {name} cannot be read"
+                ) from error
+    if name not in known:
+        raise BadInput(
+            f"{source.topic}: the recording does not say what a {name or 'message without a type'} "
+            "is"
+        )
+    return known
+
+
+@cache
+def _jazzy() -> Definitions:
+    return get_typestore(Stores.ROS2_JAZZY).fielddefs
