@@ -56,7 +56,7 @@ def read_field(path: Path, topic: str, field: str, joint: str | None = None) -> 
         bag.missing.append(f"{reading.bad} messages on {topic} cannot be read")
     picked = _Picked(topic, field, joint, reading)
     values, present = picked.values()
-    if not present.any():
+    if not picked.found:
         raise BadInput(picked.complaint())
     order = np.argsort(reading.stamps[present], kind="stable")
     name = f"{source.topic}.{field}" + (f".{joint}" if joint else "")
@@ -87,6 +87,12 @@ class _Picked:
         self._topic, self._field, self._joint, self._reading = topic, field, joint, reading
         self._parts = sorted(reading.parts, key=lambda part: int(part.at.min()))
         self._owners: dict[str, None] = {}
+        self._is_empty = False
+
+    @property
+    def found(self) -> bool:
+        """After :meth:`values`: some message has it."""
+        return bool(self._owners) or self._is_empty
 
     def values(self) -> tuple[NDArray[np.float64], NDArray[np.bool_]]:
         """(n,) numbers of all messages, and which of the messages have the joint or field."""
@@ -102,6 +108,7 @@ class _Picked:
                 present[part.at] = True
             elif self._names_it(part):
                 present[part.at] = True
+        self._is_empty = self._joint is not None and bool(present.any())
         return values, present
 
     def _find(self, part: Part) -> tuple[str, int, str] | None:
@@ -126,20 +133,8 @@ class _Picked:
         path, dot, last = self._field.rpartition(".")
         if dot and last in names:
             return any(leaf.path == path for leaf in part.layout.leaves)
-        path, element = columns.split_element(self._field)
-        return (
-            element is not None
-            and any(leaf.path == path and leaf.count == 0 for leaf in part.layout.leaves)
-            and element < max(len(names), self._longest(path))
-        )
-
-    def _longest(self, path: str) -> int:
-        return max(
-            (leaf.count or 0)
-            for part in self._reading.parts
-            for leaf in part.layout.leaves
-            if leaf.path == path
-        )
+        path, place = columns.split_element(self._field)
+        return place is not None and any(leaf.path == path for leaf in part.layout.leaves)
 
     def warnings(self) -> list[str]:
         """Where a place is not always the same joint's."""
