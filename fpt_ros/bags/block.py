@@ -63,6 +63,6 @@ class Block(NamedTuple):
             yield source, tuple(row)
 
     @property
-    def count(self) -> int:
-        """Number of messages."""
+    def messages(self) -> int:
+        """How many there are."""
         return sum(map(len, self.rows.values()))
