@@ -17,6 +17,8 @@ from fpt_ros.parameters import Parameter, Value, Values, resolve
 
 Signal = NDArray[np.float64]
 Mask = NDArray[np.bool_]
+Sigma = float | Signal
+"""Standard deviation of the noise, of all samples or of each, shape (n,)."""
 Info = Mapping[str, float | int | str]
 
 DEFAULT = "auto"
@@ -59,6 +61,14 @@ class Result:
     method: str
     sigma: float
     info: Info = field(default_factory=dict)
+
+
+def scale_and_weight(sigma: Sigma, n: int) -> tuple[float, Signal]:
+    """A typical sigma, and the weight (typical / sigma)^2 of each sample, shape (n,)."""
+    if np.ndim(sigma) == 0:
+        return float(sigma), np.ones(n)
+    typical = float(np.exp(np.mean(np.log(sigma))))
+    return typical, (typical / np.asarray(sigma)) ** 2
 
 
 def read(y: ArrayLike) -> Signal:

@@ -147,7 +147,7 @@ def library(y: Signal, present: Mask) -> tuple[Judge, list[Member], list[Member]
     fits = [*general, constant, *tones]
     noises = [(f.noise.p, f.noise.s, f.noise.t, f.noise.m) for f in fits]
     p, s, t, m = (float(x) for x in np.median(noises, axis=0))
-    judge = Judge(y, present, mixture.Noise(p, s, t, m))
+    judge = Judge(y, present, mixture.Noise(p, s, t, m, begin.profile))
     jumps = int(np.count_nonzero(np.diff(constant.estimate)))
     mean, df = steps.smooth(y, present, constant.noise, jumps)
     special = [

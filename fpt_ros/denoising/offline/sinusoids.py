@@ -13,7 +13,7 @@ import scipy.fft
 from numba import njit
 from numpy.typing import NDArray
 
-from fpt_ros.denoising.offline import Signal
+from fpt_ros.denoising.offline import Sigma, Signal, scale_and_weight
 
 PADDING = 8
 STEPS = 6
@@ -28,10 +28,10 @@ DF = 6.0
 
 
 @njit(cache=True)
-def _fit(z: Signal, omega: Signal, steps: int, constant: bool) -> Signal:
+def _fit(z: Signal, root: Signal, omega: Signal, steps: int, constant: bool) -> Signal:
     """Gauss-Newton on ``omega`` [rad/sample], changed in place; returns the fitted sum.
 
-    Columns: 1, and for each tone cos, sin and the derivative by frequency. Time runs from the
+    Residuals count ``root`` times. Columns: 1, and for each tone cos, sin and the derivative by frequency. Time runs from the
     middle of the record to keep the columns nearly orthogonal.
     """
     n, k = len(z), len(omega)
@@ -55,10 +55,13 @@ def _fit(z: Signal, omega: Signal, steps: int, constant: bool) -> Signal:
                     time = (i - middle) / middle
                     columns[row + 2, i] = time * (amplitude[j, 1] * x - amplitude[j, 0] * y)
                 x, y = x * c - y * s, x * s + y * c
+        for j in range(size):
+            for i in range(n):
+                columns[j, i] *= root[i]
         gram = columns @ columns.T
         for i in range(size):
             gram[i, i] += 1e-9 * n
-        solution = np.linalg.solve(gram, columns @ z)
+        solution = np.linalg.solve(gram, columns @ (root * z))
         for j in range(k):
             row = 1 + width * j
             amplitude[j, 0], amplitude[j, 1] = solution[row], solution[row + 1]
@@ -68,7 +71,7 @@ def _fit(z: Signal, omega: Signal, steps: int, constant: bool) -> Signal:
                 omega[j] += min(max(change, -limit), limit)
                 omega[j] = min(max(omega[j], 0.25 * math.pi / n), math.pi)
         if step == steps:
-            f = solution @ columns
+            f = (solution @ columns) / root
     return f
 
 
@@ -80,7 +83,7 @@ def _peak(residual: Signal) -> float:
 
 
 def fit(
-    z: Signal, omega: NDArray[np.float64], most: int = MOST
+    z: Signal, omega: NDArray[np.float64], most: int = MOST, weight: Signal | None = None
 ) -> tuple[Signal, NDArray[np.float64]]:
     """The sum of tones, shape (n,), and their frequencies [rad/sample].
 
@@ -88,24 +91,30 @@ def fit(
         z: samples, shape (n,).
         omega: frequencies to begin with; more are added while BIC allows.
         most: tones at most.
+        weight: of each squared residual, shape (n,); default: 1.
     """
     n = len(z)
+    root = np.ones(n) if weight is None else np.sqrt(weight)
+
+    def rss_of(f: Signal) -> float:
+        return float(np.sum((root * (z - f)) ** 2))
+
     size = 2.0 ** math.frexp(float(np.std(z)))[1]  # the columns of _fit are of order 1
     z = np.ascontiguousarray(z) / size
     tones = omega.copy()
-    f = _fit(z, tones, 2, True) if len(tones) else np.full(n, z.mean())
-    rss = float(np.sum((z - f) ** 2))
+    f = _fit(z, root, tones, 2, True) if len(tones) else np.full(n, np.average(z, weights=root**2))
+    rss = rss_of(f)
     while len(tones) < min(most, n // 8):
-        more = np.append(tones, _peak(z - f))
-        g = _fit(z, more, STEPS, True)
-        lower = float(np.sum((z - g) ** 2))
+        more = np.append(tones, _peak(root**2 * (z - f)))
+        g = _fit(z, root, more, STEPS, True)
+        lower = rss_of(g)
         if lower <= 0.0 or n * math.log(rss / lower) < BIC * math.log(n):
             break
         tones, f, rss = more, g, lower
     if len(tones):
         without = tones.copy()
-        g = _fit(z, without, 2, False)
-        if n * math.log(float(np.sum((z - g) ** 2)) / max(rss, 1e-300)) < math.log(n):
+        g = _fit(z, root, without, 2, False)
+        if n * math.log(rss_of(g) / max(rss, 1e-300)) < math.log(n):
             return size * g, without
     return size * f, tones
 
@@ -120,7 +129,7 @@ class Tones:
 
     omega: NDArray[np.float64] = field(default_factory=lambda: np.empty(0))
 
-    def smooth(self, z: Signal, sigma: float) -> tuple[Signal, float]:
+    def smooth(self, z: Signal, sigma: Sigma) -> tuple[Signal, float]:
         """The sum of tones, shape (n,), and its degrees of freedom."""
-        f, self.omega = fit(z, self.omega)
+        f, self.omega = fit(z, self.omega, weight=scale_and_weight(sigma, len(z))[1])
         return f, 1.0 + DF * len(self.omega)
