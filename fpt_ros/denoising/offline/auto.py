@@ -24,8 +24,9 @@ after a spline of one stiffness, which leaves none in but cuts peaks; and the re
 oscillations so fast that Hampel flattens them.
 """
 
+import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -36,8 +37,11 @@ from fpt_ros.denoising.offline import (
     Signal,
     mixture,
     potts,
+    process_member,
+    quantisation,
     roughness,
     sinusoids,
+    spectral_floor,
     steps,
 )
 from fpt_ros.parameters import Values
@@ -137,14 +141,25 @@ def _member(name: str, fit: mixture.Fit) -> Member:
 
 def library(y: Signal, present: Mask) -> tuple[Judge, list[Member], list[Member]]:
     """The judge, the general smoothers, and the special ones, all fitted to ``y``."""
-    begin = mixture.start(y, present)
+    step = quantisation.least_step(y, present)
+    begin = mixture.start(y, present, quantisation.floor(step))
+    shape = spectral_floor.profile(begin.z, present, begin.least)
+    if shape.max() > shape.min():
+        begin = mixture.varying(y, present, begin, shape)
+    coarse = begin.sigma < 2.0 * step
+    process = process_member.smooth(y, present, begin, np.ones(len(y)), not coarse)
+    if process.colour is not None:
+        c, sigma = process.colour.coefficient, process.colour.sigma
+        low = math.hypot(process.fit.noise.s, sigma * math.sqrt((1.0 + c) / (1.0 - c)))
+        inflation = max(1.0, low / begin.sigma)
+        begin = replace(begin, sigma=begin.sigma * inflation, inflation=inflation)
     general = _general(y, present, begin)
     levels = potts.robust_start(y, begin.sigma)
     constant = mixture.fit(y, present, potts.smooth, begin, levels)
     tones = [
         mixture.fit(y, present, sinusoids.Tones().smooth, begin, z) for z in (begin.z, general[0].z)
     ]
-    fits = [*general, constant, *tones]
+    fits = [*general, constant, *tones, *([] if process.colour else [process.fit])]
     noises = [(f.noise.p, f.noise.s, f.noise.t, f.noise.m) for f in fits]
     p, s, t, m = (float(x) for x in np.median(noises, axis=0))
     judge = Judge(y, present, mixture.Noise(p, s, t, m, begin.profile))
@@ -154,6 +169,8 @@ def library(y: Signal, present: Mask) -> tuple[Judge, list[Member], list[Member]
         _member("potts", constant),
         Member("steps", mean, max(df, STEP_DF * (jumps + 1))),
         min((_member("sinusoids", fit) for fit in tones), key=judge.score),
+        _member("process", process.fit),
+        Member("unchanged", y, float(present.sum())),
     ]
     return judge, [_member("general", fit) for fit in general], special
 

@@ -38,7 +38,7 @@ KERNELS: dict[str, tuple[float, ...]] = {
 }
 """Kinds of the components of each kernel."""
 
-STEPS = 30
+STEPS = 20
 """Iterations of L-BFGS."""
 LEAST_Q = 0.55
 MOST_COLOUR = 0.96
@@ -176,7 +176,7 @@ def fit(
 
     found = minimize(
         cost, np.clip(x, *np.transpose(bounds)), method="L-BFGS-B", bounds=bounds,
-        options={"maxiter": STEPS, "ftol": 1e-6, "eps": 1e-3},
+        options={"maxiter": STEPS, "ftol": 2e-5, "eps": 1e-3},
     )  # fmt: skip
     parts = _parts(kinds, found.x, coloured)
     square, _ = likelihood(samples.y, samples.relative, samples.dt, parts)

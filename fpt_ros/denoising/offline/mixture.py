@@ -104,6 +104,7 @@ class Start:
         outlier: True where a sample was replaced.
         profile: how the noise varies, shape (n,), or 1.
         least: least sigma there can be, unit of y.
+        inflation: by how much the noise is stronger at low frequencies than ``level`` sees.
     """
 
     z: Signal
@@ -111,10 +112,11 @@ class Start:
     outlier: Mask
     profile: Sigma = 1.0
     least: float = 0.0
+    inflation: float = 1.0
 
     def level(self, z: Signal, present: Mask) -> float:
         """The level of the noise of ``z`` where the profile is 1."""
-        return max(level(z / self.profile, present), self.least)
+        return self.inflation * max(level(z / self.profile, present), self.least)
 
 
 @dataclass(frozen=True)
@@ -147,6 +149,15 @@ def start(y: Signal, present: Mask, least: float = 0.0) -> Start:
     least = max(least, FAINTEST * float(np.std(y)))
     sigma = max(level(z, present), least)
     return Start(z, sigma, outlier & present, 1.0, least)
+
+
+def varying(y: Signal, present: Mask, begin: Start, profile: Signal) -> Start:
+    """``begin`` again where the noise varies: Hampel's scale is at least the local one."""
+    local = begin.level(begin.z / profile, present)
+    z, outlier = hampel(y / profile, 2, local)
+    z = z * profile
+    sigma = max(level(z / profile, present), begin.least)
+    return Start(z, sigma, outlier & present, profile, begin.least)
 
 
 def first_noise(y: Signal, f: Signal, begin: Start, present: Mask) -> Noise:

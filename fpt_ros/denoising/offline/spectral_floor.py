@@ -61,8 +61,14 @@ def level(y: Signal, present: Mask | None = None) -> float:
     return sigma if sigma < SHARE * detail else detail
 
 
-def profile(y: Signal, present: Mask) -> Signal:
-    """How the level varies along ``y``: of geometric mean 1, shape (n,); ones where it does not."""
+def profile(y: Signal, present: Mask, least: float = 0.0) -> Signal:
+    """How the level varies along ``y``: of geometric mean 1, shape (n,); ones where it does not.
+
+    Args:
+        y: samples without impulses, shape (n,).
+        present: False where a sample was missing.
+        least: least level there can be, as by rounding, unit of y.
+    """
     n = len(y)
     window, step = _frames(n)
     flat = np.ones(n)
@@ -74,8 +80,10 @@ def profile(y: Signal, present: Mask) -> Signal:
     floor = np.quantile(power, QUANTILE, axis=1) / -math.log1p(-QUANTILE)
     detail = np.abs(finest_detail(y))
     local = np.array([np.median(detail[a : a + window - 3]) for a in starts]) / MAD
-    logs = np.log(np.maximum(np.minimum(np.sqrt(floor), local), 1e-300))
-    logs = np.maximum(logs, np.median(logs) - 7.0)
+    lower = np.minimum(np.sqrt(floor), local)
+    if np.median(lower) <= least:
+        return flat
+    logs = np.log(np.maximum(lower, max(least, 1e-3 * float(np.median(lower)))))
     # a gap that was healed has no noise: its frames know nothing
     known = np.array([present[a : a + window].mean() > 0.7 for a in starts])
     if known.sum() < 8:
