@@ -12,7 +12,7 @@ BIC = -2 ln L + (hyperparameters) ln N.
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 import scipy.fft
@@ -24,6 +24,7 @@ from fpt_ros.denoising.offline.kalman import (
     MATERN3,
     MATERN5,
     OSCILLATOR,
+    STATES,
     UNKNOWN,
     likelihood,
     smooth,
@@ -96,22 +97,26 @@ class Process:
             own[-1] = 0.0
         return own
 
-    def smooth(self, samples: Samples) -> tuple[Signal, float, Signal]:
-        """Posterior mean, its degrees of freedom, and its standard deviation."""
+    def smooth(self, samples: Samples, derivative: int = 0) -> tuple[Signal, float, Signal]:
+        """Posterior mean, its degrees of freedom, and its standard deviation.
+
+        With ``derivative`` the mean is that of the first or second derivative [y / mean step^k];
+        only components that have one count: all of ``smooth``.
+        """
         mean, spread, leverage = smooth(
             samples.y, samples.relative, samples.dt, self.parts, self.signal
         )
-        f = mean[:, self._places()].sum(axis=1)
+        f = mean[:, self._places(derivative)].sum(axis=1)
         return f, float(leverage.sum()), self.s * np.sqrt(spread)
 
-    def _places(self) -> list[int]:
-        """Index of the first state of each component of the signal."""
-        sizes = {DECAY: 1, MATERN3: 2, MATERN5: 3, OSCILLATOR: 2}
+    def _places(self, derivative: int) -> list[int]:
+        """Index of the state of each component of the signal that is such a derivative."""
         places, k = [], 0
         for part, own in zip(self.parts, self.signal, strict=True):
-            if own:
-                places.append(k)
-            k += sizes[float(part[0])]
+            states = STATES[float(part[0])]
+            if own and derivative < states:
+                places.append(k + derivative)
+            k += states
         return places
 
 
@@ -134,6 +139,19 @@ def peak(y: Signal) -> float:
     n = len(y)
     power = np.abs(scipy.fft.rfft((y - y.mean()) * np.hanning(n)))
     return n / max(1, int(np.argmax(power[1:])) + 1)
+
+
+def refit(samples: Samples, process: Process) -> Process:
+    """``process`` with hyperparameters sought from where they were."""
+    return fit(samples, process.kernel, process.coloured, process)
+
+
+def scaled(samples: Samples, process: Process) -> Process:
+    """``process`` with the s of these samples, all else as it was."""
+    square, logs = likelihood(samples.y, samples.relative, samples.dt, process.parts)
+    s = math.sqrt(max(square / samples.count, samples.least**2, 1e-300))
+    cost = samples.count * math.log(s * s) + logs + square / s**2
+    return replace(process, s=s, bic=cost + (len(process.x) + 1) * math.log(samples.count))
 
 
 def fit(

@@ -20,14 +20,14 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from fpt_ros.denoising.offline import Mask, Sigma, Signal
+from fpt_ros.denoising.offline import Mask, Sigma, Signal, quantisation
 from fpt_ros.denoising.offline.noise import hampel, noise_sigma
 from fpt_ros.denoising.offline.spectral_floor import level
 
 Core = Callable[[Signal, Sigma], tuple[Signal, float]]
 """(z, sigma) -> (estimate, degrees of freedom)."""
 
-ROUNDS = 12
+ROUNDS, FEW_ROUNDS = 12, 4
 LEAST_SHARE, MOST_SHARE = 1e-3, 0.15
 CLOSE = 0.01
 """EM ends when the estimate's RMS change is below this share of s."""
@@ -104,6 +104,7 @@ class Start:
         outlier: True where a sample was replaced.
         profile: how the noise varies, shape (n,), or 1.
         least: least sigma there can be, unit of y.
+        step: of rounding, unit of y; 0: none.
         inflation: by how much the noise is stronger at low frequencies than ``level`` sees.
     """
 
@@ -112,11 +113,13 @@ class Start:
     outlier: Mask
     profile: Sigma = 1.0
     least: float = 0.0
+    step: float = 0.0
     inflation: float = 1.0
 
     def level(self, z: Signal, present: Mask) -> float:
         """The level of the noise of ``z`` where the profile is 1."""
-        return self.inflation * max(level(z / self.profile, present), self.least)
+        found = max(level(z / self.profile, present), self.least)
+        return self.inflation * quantisation.trusted(found, self.step)
 
 
 @dataclass(frozen=True)
@@ -136,19 +139,20 @@ class Fit:
     noise: Noise
 
 
-def start(y: Signal, present: Mask, least: float = 0.0) -> Start:
+def start(y: Signal, present: Mask, step: float = 0.0) -> Start:
     """Hampel (half-width 2, 3 sigma), twice, the scale at least the noise of the pass before.
 
     Args:
         y: samples, shape (n,).
         present: False where a sample is missing.
-        least: least sigma there can be, as by rounding.
+        step: of rounding, unit of y; 0: none.
     """
+    least = quantisation.floor(step)
     z, _ = hampel(y, 2, noise_sigma(y, present))
     z, outlier = hampel(y, 2, max(noise_sigma(z, present), least))
     least = max(least, FAINTEST * float(np.std(y)))
-    sigma = max(level(z, present), least)
-    return Start(z, sigma, outlier & present, 1.0, least)
+    sigma = quantisation.trusted(max(level(z, present), least), step)
+    return Start(z, sigma, outlier & present, 1.0, least, step)
 
 
 def varying(y: Signal, present: Mask, begin: Start, profile: Signal) -> Start:
@@ -184,7 +188,10 @@ def next_noise(
     square = size**2
     inliers = float(np.sum(w))
     scale = min(max(begin.level(z, present), 0.7 * begin.sigma), 1.1 * begin.sigma)
-    s = math.sqrt(float(np.sum(w * square / np.square(begin.profile))) / max(inliers - df, 0.05 * inliers, 1e-300))
+    s = math.sqrt(
+        float(np.sum(w * square / np.square(begin.profile)))
+        / max(inliers - df, 0.05 * inliers, 1e-300)
+    )
     s = min(max(s, scale), 1.2 * scale)
     out = np.where(present, 1.0 - w, 0.0)
     outliers = max(float(np.sum(out)), 1e-9)
@@ -194,7 +201,14 @@ def next_noise(
     return _noise(p, s, float(np.sum(out * square)) / outliers - s**2, m, begin.profile)
 
 
-def fit(y: Signal, present: Mask, core: Core, begin: Start, z: Signal | None = None) -> Fit:
+def fit(
+    y: Signal,
+    present: Mask,
+    core: Core,
+    begin: Start,
+    z: Signal | None = None,
+    rounds: int = ROUNDS,
+) -> Fit:
     """EM around ``core``.
 
     Args:
@@ -203,11 +217,12 @@ def fit(y: Signal, present: Mask, core: Core, begin: Start, z: Signal | None = N
         core: the smoother.
         begin: of :func:`start`.
         z: completed data to begin with; default: those of ``begin``.
+        rounds: of EM, at most.
     """
     z = begin.z if z is None else z
     f, df = core(z, begin.sigma * begin.profile)
     noise = first_noise(y, f, begin, present)
-    for _ in range(ROUNDS):
+    for _ in range(rounds):
         before, s = f, noise.s
         sigma = noise.sigma
         w = noise.inlier(y - f, present)

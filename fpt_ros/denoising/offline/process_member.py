@@ -11,7 +11,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from fpt_ros.denoising.offline import Mask, Signal, mixture
-from fpt_ros.denoising.offline.gaussian_process import KERNELS, Process, Samples, fit
+from fpt_ros.denoising.offline.gaussian_process import KERNELS, Process, Samples, fit, refit, scaled
 from fpt_ros.denoising.offline.kalman import UNKNOWN
 
 ROUNDS = 3
@@ -30,10 +30,18 @@ class Colour:
     Attributes:
         coefficient: of one sample on the one before.
         sigma: standard deviation, unit of y.
+        white: standard deviation of the white noise beside it, unit of y.
     """
 
     coefficient: float
     sigma: float
+    white: float
+
+    @property
+    def low(self) -> float:
+        """Standard deviation of the white noise that is as strong at low frequencies."""
+        c = self.coefficient
+        return math.hypot(self.white, self.sigma * math.sqrt((1.0 + c) / (1.0 - c)))
 
 
 @dataclass(frozen=True)
@@ -69,12 +77,16 @@ def _coloured(samples: Samples, white: Process) -> Process | None:
     if found.bic > white.bic - CLEAR:
         return None
     known = samples.relative < UNKNOWN
-    power = (found.parts[-1, 1] ** 2 + 1.0) * found.s**2
-    return found if power < LOUDEST * float(np.var(samples.y[known])) else None
+    return found if _total(found) ** 2 < LOUDEST * float(np.var(samples.y[known])) else None
 
 
 def smooth(
-    y: Signal, present: Mask, begin: mixture.Start, dt: Signal, colour: bool = True
+    y: Signal,
+    present: Mask,
+    begin: mixture.Start,
+    dt: Signal,
+    colour: bool = True,
+    known: tuple[tuple[Process, float], ...] = (),
 ) -> Smoothed:
     """The robust mean of the processes.
 
@@ -84,37 +96,49 @@ def smooth(
         begin: of :func:`mixture.start`.
         dt: steps of time before each sample [mean step], shape (n,).
         colour: whether coloured noise is looked for.
+        known: processes to take as they are but for their scale; empty: all are fitted.
     """
     middle = float(np.mean(begin.z[present]))
     centred = y - middle
     samples = _samples(centred, (present & ~begin.outlier).astype(float), begin, dt)
-    processes = sorted((fit(samples, kernel) for kernel in KERNELS), key=lambda p: p.bic)
-    if colour:
+    if known:
+        processes = [scaled(samples, process) for process, _ in known]
+    else:
+        processes = sorted((fit(samples, kernel) for kernel in KERNELS), key=lambda p: p.bic)
+    if colour and not known:
         other = _coloured(samples, processes[0])
         if other is not None:
             processes = [other]
     kept = [p for p in processes if p.bic < processes[0].bic + NEAR]
     f, df = _mean(kept, samples)
     noise = mixture.first_noise(centred, f, begin, present)
-    noise = replace(noise, s=max(kept[0].s, begin.least))
+    noise = replace(noise, s=max(_total(kept[0]), begin.least))
     for step in range(ROUNDS):
         w = noise.inlier(centred - f, present)
         samples = _samples(centred, w, begin, dt)
         if step == 0:
-            kept = [fit(samples, p.kernel, p.coloured, p) for p in kept]
+            again = scaled if known else refit
+            kept = [again(samples, p) for p in kept]
         f, df = _mean(kept, samples)
         noise = mixture.next_noise(centred, f, f + w * (centred - f), w, df, present, begin, noise)
-        noise = replace(noise, s=max(kept[0].s, begin.least))
+        noise = replace(noise, s=max(_total(kept[0]), begin.least))
     z = f + noise.inlier(centred - f, present) * (centred - f)
     best = min(kept, key=lambda p: p.bic)
     found = None
     if best.coloured:
-        found = Colour(math.exp(-1.0 / best.parts[-1, 2]), float(best.parts[-1, 1] * best.s))
+        found = Colour(
+            math.exp(-1.0 / best.parts[-1, 2]), float(best.parts[-1, 1] * best.s), best.s
+        )
     weights = _weights(kept)
     return Smoothed(
         mixture.Fit(f + middle, z + middle, df, noise), best.kernel, found,
         tuple(zip(kept, map(float, weights), strict=True)), samples,
     )  # fmt: skip
+
+
+def _total(process: Process) -> float:
+    """Standard deviation of all its noise."""
+    return process.s * (math.hypot(1.0, process.parts[-1, 1]) if process.coloured else 1.0)
 
 
 def _weights(processes: list[Process]) -> Signal:

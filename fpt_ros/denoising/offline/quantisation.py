@@ -10,6 +10,8 @@ CLOSE = 1e-3
 """Distances of levels are whole numbers of steps to this accuracy."""
 FEWEST = 8
 """Samples per level on average where a step is called coarse."""
+TRUST = 1.15
+"""Of the level of rounding: some noise was there before it."""
 PARTS = 6
 """The least distance may be so many steps."""
 
@@ -37,6 +39,15 @@ def least_step(y: Signal, present: Mask) -> float:
 def _real(count: int, span: float) -> bool:
     """Whether so many distances could not be multiples by chance."""
     return span < 1.0 / CLOSE * count or count > 20
+
+
+def trusted(sigma: float, step: float) -> float:
+    """The level of noise of a record with the step ``step``, if ``sigma`` is what it looks like.
+
+    Below a step, a level mistakes the roundings of a fast signal for noise: then only that of
+    rounding is sure.
+    """
+    return TRUST * floor(step) if step > 0.0 and sigma < step else sigma
 
 
 def floor(step: float) -> float:
