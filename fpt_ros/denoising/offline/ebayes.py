@@ -35,7 +35,7 @@ def beta(x: Signal) -> Signal:
 
 
 def share(b: Signal, n: float) -> float:
-    """w of most likelihood, at least that whose threshold is sqrt(2 ln n)."""
+    """The w of most likelihood, at least that whose threshold is sqrt(2 ln n)."""
     bound = math.sqrt(2.0 * math.log(max(n, 2.0)))
     at = bound - A
     least = A * math.exp(float(log_ndtr(at)) + 0.5 * at * at) * math.sqrt(2.0 * math.pi)

@@ -11,14 +11,13 @@ BIC = -2 ln L + (hyperparameters) ln N.
 """
 
 import math
-from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
 import scipy.fft
-from scipy.optimize import minimize
 
 from fpt_ros.denoising.offline import Signal
+from fpt_ros.denoising.offline.evidence import descend, parts_of
 from fpt_ros.denoising.offline.kalman import (
     DECAY,
     MATERN3,
@@ -39,9 +38,8 @@ KERNELS: dict[str, tuple[float, ...]] = {
 }
 """Kinds of the components of each kernel."""
 
-STEPS = 20
-"""Iterations of L-BFGS."""
-LEAST_Q = 0.55
+STEPS, CLOSE = 25, 0.02
+"""Steps of the search at most; it ends when one gains less than this."""
 MOST_COLOUR = 0.96
 """Of the AR(1) coefficient of noise: what remembers longer is a signal."""
 LEAST_COLOUR = 0.2
@@ -120,20 +118,6 @@ class Process:
         return places
 
 
-def _parts(kinds: Sequence[float], x: Signal, coloured: bool) -> Signal:
-    parts = np.zeros((len(kinds) + coloured, 4))
-    k = 0
-    for row, kind in enumerate(kinds):
-        parts[row, :3] = kind, math.exp(x[k]), math.exp(x[k + 1])
-        k += 2
-        if kind == OSCILLATOR:
-            parts[row, 3] = LEAST_Q + math.exp(x[k])
-            k += 1
-    if coloured:
-        parts[-1, :3] = DECAY, math.exp(x[k]), math.exp(x[k + 1])
-    return parts
-
-
 def peak(y: Signal) -> float:
     """Period [samples] of the largest peak of the spectrum."""
     n = len(y)
@@ -182,22 +166,14 @@ def fit(
     if begin is not None and begin.kernel == kernel:
         x[: len(begin.x)] = list(begin.x)
 
-    least = samples.least**2
-
-    def cost(values: Signal) -> float:
-        square, logs = likelihood(
-            samples.y, samples.relative, samples.dt, _parts(kinds, values, coloured)
-        )
-        power = max(square / count, least, 1e-300)
-        total = count * math.log(power) + logs + square / power
-        return total if math.isfinite(total) else 1e12
-
-    found = minimize(
-        cost, np.clip(x, *np.transpose(bounds)), method="L-BFGS-B", bounds=bounds,
-        options={"maxiter": STEPS, "ftol": 2e-5, "eps": 1e-3},
+    low, high = np.transpose(bounds)
+    every = np.array((*kinds, DECAY) if coloured else kinds)
+    best, value = descend(
+        samples.y, samples.relative, samples.dt, every, np.array(x), low, high,
+        count, samples.least, STEPS, CLOSE,
     )  # fmt: skip
-    parts = _parts(kinds, found.x, coloured)
+    parts = parts_of(every, best)
     square, _ = likelihood(samples.y, samples.relative, samples.dt, parts)
-    s = math.sqrt(max(square / count, least))
-    bic = float(found.fun) + (len(found.x) + 1) * math.log(count)
-    return Process(kernel, parts, s, bic, coloured, found.x)
+    s = math.sqrt(max(square / count, samples.least**2))
+    bic = float(value) + (len(best) + 1) * math.log(count)
+    return Process(kernel, parts, s, bic, coloured, best)

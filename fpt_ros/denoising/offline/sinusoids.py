@@ -31,8 +31,8 @@ DF = 6.0
 def _fit(z: Signal, root: Signal, omega: Signal, steps: int, constant: bool) -> Signal:
     """Gauss-Newton on ``omega`` [rad/sample], changed in place; returns the fitted sum.
 
-    Residuals count ``root`` times. Columns: 1, and for each tone cos, sin and the derivative by frequency. Time runs from the
-    middle of the record to keep the columns nearly orthogonal.
+    Residuals count ``root`` times. Columns: 1, and for each tone cos, sin and the derivative by
+    frequency. Time runs from the middle of the record to keep the columns nearly orthogonal.
     """
     n, k = len(z), len(omega)
     middle = 0.5 * (n - 1)
