@@ -10,7 +10,7 @@ CLOSE = 1e-3
 """Distances of levels are whole numbers of steps to this accuracy."""
 FEWEST = 8
 """Samples per level on average where a step is called coarse."""
-TRUST = 1.15
+TRUST = 1.2
 """Of the level of rounding: some noise was there before it."""
 PARTS = 6
 """The least distance may be so many steps."""

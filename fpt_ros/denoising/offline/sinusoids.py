@@ -23,6 +23,9 @@ BIC = 4.0
 """Least gain of a tone in units of ln n: 3 for its parameters alike; 5 if its frequency, whose
 error falls as n^-1.5, counts threefold (Djuric, IEEE Trans. Signal Processing 44, 1996). At 3,
 noise alone has a tone in some 3 % of records, and EM then keeps it."""
+ENOUGH = 0.75
+"""Share of the noise's power below which a residual is all noise, whatever tones it has: the error
+of rounding a tone is tones."""
 DF = 6.0
 """Degrees of freedom of a tone: 3, and 3 for the choice of its peak."""
 
@@ -83,7 +86,11 @@ def _peak(residual: Signal) -> float:
 
 
 def fit(
-    z: Signal, omega: NDArray[np.float64], most: int = MOST, weight: Signal | None = None
+    z: Signal,
+    omega: NDArray[np.float64],
+    most: int = MOST,
+    weight: Signal | None = None,
+    sigma: float = 0.0,
 ) -> tuple[Signal, NDArray[np.float64]]:
     """The sum of tones, shape (n,), and their frequencies [rad/sample].
 
@@ -92,6 +99,7 @@ def fit(
         omega: frequencies to begin with; more are added while BIC allows.
         most: tones at most.
         weight: of each squared residual, shape (n,); default: 1.
+        sigma: of the noise where the weight is 1: no tone is added to less than ``ENOUGH`` of it.
     """
     n = len(z)
     root = np.ones(n) if weight is None else np.sqrt(weight)
@@ -104,7 +112,8 @@ def fit(
     tones = omega.copy()
     f = _fit(z, root, tones, 2, True) if len(tones) else np.full(n, np.average(z, weights=root**2))
     rss = rss_of(f)
-    while len(tones) < min(most, n // 8):
+    enough = ENOUGH * n * (sigma / size) ** 2
+    while len(tones) < min(most, n // 8) and rss > enough:
         more = np.append(tones, _peak(root**2 * (z - f)))
         g = _fit(z, root, more, STEPS, True)
         lower = rss_of(g)
@@ -131,5 +140,6 @@ class Tones:
 
     def smooth(self, z: Signal, sigma: Sigma) -> tuple[Signal, float]:
         """The sum of tones, shape (n,), and its degrees of freedom."""
-        f, self.omega = fit(z, self.omega, weight=scale_and_weight(sigma, len(z))[1])
+        typical, weight = scale_and_weight(sigma, len(z))
+        f, self.omega = fit(z, self.omega, weight=weight, sigma=typical)
         return f, 1.0 + DF * len(self.omega)
