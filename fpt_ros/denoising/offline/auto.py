@@ -69,9 +69,13 @@ def part(
     judge, general, special = library.fit_all(
         y, present, beginning.begin, beginning.process.fit, white, choice
     )
-    last = [judge.mean("general", general, library.WIDE), *special]
-    weight = judge.weights(last, library.SHARP)
-    inner = judge.weights(general, library.WIDE)
+    varies = np.ndim(beginning.begin.profile) > 0
+    doubt = library.DOUBT if varies else 1.0
+    if varies:
+        general = [*general, special[0]]
+    last = [judge.mean("general", general, doubt * library.WIDE), *special]
+    weight = judge.weights(last, doubt * library.SHARP)
+    inner = judge.weights(general, doubt * library.WIDE)
     estimate = weight @ np.array([member.estimate for member in last])
     return Part(
         np.asarray(estimate + offset),

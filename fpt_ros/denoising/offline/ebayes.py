@@ -19,6 +19,7 @@ from fpt_ros.denoising.offline.undecimated import bank
 A = 0.5
 """Scale of the Laplace density."""
 HALVINGS = 30
+STEP = 0.1
 FARTHEST = 25.0
 """Beyond this the posterior median is the coefficient less A."""
 
@@ -67,11 +68,17 @@ def median(x: Signal, w: float, b: Signal) -> Signal:
     return np.asarray(np.sign(x) * np.where(np.abs(x) > FARTHEST, np.abs(x) - A, middle))
 
 
+def _slope(x: Signal, w: float) -> Signal:
+    """Derivative of the posterior median, over the width of ``2 STEP``."""
+    up, down = x + STEP, x - STEP
+    return (median(up, w, beta(up)) - median(down, w, beta(down))) / (2.0 * STEP)
+
+
 def shrink(y: Signal, sigma: Sigma, wavelet: str = "sym8") -> tuple[Signal, float]:
     """The estimate for white noise of ``sigma``, shape (n,), and its degrees of freedom.
 
-    Where sigma varies a coefficient has that of its place. The degrees of freedom count the
-    coefficients that are not 0.
+    Where sigma varies a coefficient has that of its place. The degrees of freedom are the trace of
+    the derivative for given w.
     """
     n = len(y)
     transform = bank(wavelet, n)
@@ -85,6 +92,6 @@ def shrink(y: Signal, sigma: Sigma, wavelet: str = "sym8") -> tuple[Signal, floa
         x = bands[j] / local
         b = beta(x)
         kept = median(x, share(b, n), b)
-        df += n / 2.0 ** (j + 1) * float(np.mean(kept != 0.0))
+        df += n / 2.0 ** (j + 1) * float(np.mean(_slope(x, share(b, n))))
         bands[j] = kept * local
     return transform.synthesise(bands), min(df, float(n))

@@ -15,8 +15,9 @@ Under one mixture for all, the medians of theirs, each has the score::
 and means have the weights exp(-score / T). First the general ones are averaged, T = 8: their
 errors differ, and a mean is better than any. Then that mean and the special ones, T = 2, as
 posterior probabilities: where a signal is of their kind, they are far better than the mean, else
-far worse. A mean costs the extra degrees of freedom 2 sum var / (T s^2), var being that of its
-members at each sample. All constants were chosen on seeds 0-9 of the noise of the figures.
+far worse. Where the noise varies the process is in both means, and T is 4 times as great. A mean
+costs the extra degrees of freedom 2 sum var / (T s^2), var being that of its members at each
+sample. The constants were chosen on seeds 0-9 of the noise of the figures.
 
 The record as it is has chosen nothing: its df = n cost 2 each, which is Stein's risk. So no model
 that explains more than it may by impulses can win against it.
@@ -50,6 +51,8 @@ PRICE = 3.0
 """Of a degree of freedom, in units of -2 log likelihood."""
 WIDE, SHARP = 8.0, 2.0
 """Temperatures T of the two means."""
+DOUBT = 4.0
+"""By which both rise where the noise varies: its profile is an estimate, and scores are less sure."""
 
 Shape = tuple[int, float, float | None]
 """Order, width and pitch of a general smoother (:class:`roughness.Roughness`)."""
@@ -187,9 +190,10 @@ def fit_all(
         constant = mixture.fit(y, present, potts.smooth, begin, levels)
         fits.append(constant)
     tones = []
+    rounded = begin.sigma < begin.step
     if choice is None or TONES in choice.special:
         tones = [
-            mixture.fit(y, present, sinusoids.Tones().smooth, begin, z)
+            mixture.fit(y, present, sinusoids.Tones(enough=rounded).smooth, begin, z)
             for z in (begin.z, named["spline"].z)
         ]
         fits += tones

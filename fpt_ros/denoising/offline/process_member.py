@@ -17,9 +17,9 @@ from fpt_ros.denoising.offline.kalman import UNKNOWN
 ROUNDS = 3
 NEAR = 12.0
 """Kernels within this BIC of the best are kept."""
-CLEAR = 2.0
+CLEAR = 0.0
 """BIC by which coloured noise has to be better than white noise."""
-LOUDEST = 0.2
+LOUDEST = 0.15
 """Share of the variance that coloured noise may have: more is a signal, as far as can be told."""
 
 

@@ -10,6 +10,7 @@ CLOSE = 1e-3
 """Distances of levels are whole numbers of steps to this accuracy."""
 FEWEST = 8
 """Samples per level on average where a step is called coarse."""
+BELOW = 1.25
 TRUST = 1.2
 """Of the level of rounding: some noise was there before it."""
 PARTS = 6
@@ -44,10 +45,10 @@ def _real(count: int, span: float) -> bool:
 def trusted(sigma: float, step: float) -> float:
     """The level of noise of a record with the step ``step``, if ``sigma`` is what it looks like.
 
-    Below a step, a level mistakes the roundings of a fast signal for noise: then only that of
+    Below about a step, a level mistakes the roundings of a fast signal for noise: then only that of
     rounding is sure.
     """
-    return TRUST * floor(step) if step > 0.0 and sigma < step else sigma
+    return TRUST * floor(step) if step > 0.0 and sigma < BELOW * step else sigma
 
 
 def floor(step: float) -> float:

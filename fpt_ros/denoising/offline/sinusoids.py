@@ -134,12 +134,14 @@ class Tones:
 
     Attributes:
         omega: frequencies of the tones [rad/sample].
+        enough: whether no tone is added to a residual below the noise: if that is of rounding.
     """
 
     omega: NDArray[np.float64] = field(default_factory=lambda: np.empty(0))
+    enough: bool = False
 
     def smooth(self, z: Signal, sigma: Sigma) -> tuple[Signal, float]:
         """The sum of tones, shape (n,), and its degrees of freedom."""
         typical, weight = scale_and_weight(sigma, len(z))
-        f, self.omega = fit(z, self.omega, weight=weight, sigma=typical)
+        f, self.omega = fit(z, self.omega, weight=weight, sigma=typical if self.enough else 0.0)
         return f, 1.0 + DF * len(self.omega)

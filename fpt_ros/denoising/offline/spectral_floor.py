@@ -22,9 +22,9 @@ LOWEST = 2
 """Cells below this frequency [per frame] hold signals of all kinds."""
 SHARE = 0.8
 """Of the wavelet's estimate: the floor counts if it is below this; else it is but less exact."""
-SMOOTH = 1.5
+SMOOTH = 1.0
 """Standard deviation of the window of the profile [frames of a whole window]."""
-LEAST_RATIO = 1.8
+LEAST_RATIO = 3.0
 """Of the greatest to the least local level: less is one level."""
 LONG = 4096
 """Frames that are looked at for the level of the whole."""
@@ -70,7 +70,7 @@ def profile(y: Signal, present: Mask, least: float = 0.0) -> Signal:
         least: least level there can be, as by rounding, unit of y.
     """
     n = len(y)
-    window, step = _frames(n)
+    window, step = _frames(n // 2)
     flat = np.ones(n)
     if n < 4 * window:
         return flat
@@ -80,7 +80,8 @@ def profile(y: Signal, present: Mask, least: float = 0.0) -> Signal:
     floor = np.quantile(power, QUANTILE, axis=1) / -math.log1p(-QUANTILE)
     detail = np.abs(finest_detail(y))
     local = np.array([np.median(detail[a : a + window - 3]) for a in starts]) / MAD
-    lower = np.minimum(np.sqrt(floor), local)
+    floor = np.sqrt(floor)
+    lower = np.where(floor < SHARE * local, floor, local)
     if np.median(lower) <= least:
         return flat
     logs = np.log(np.maximum(lower, max(least, 1e-3 * float(np.median(lower)))))
