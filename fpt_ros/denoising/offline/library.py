@@ -52,7 +52,7 @@ PRICE = 3.0
 WIDE, SHARP = 8.0, 2.0
 """Temperatures T of the two means."""
 DOUBT = 4.0
-"""By which both rise where the noise varies: its profile is an estimate, and scores are less sure."""
+"""By which both rise where the noise varies: its profile is an estimate, scores are less sure."""
 
 Shape = tuple[int, float, float | None]
 """Order, width and pitch of a general smoother (:class:`roughness.Roughness`)."""

@@ -10,6 +10,7 @@ the level.
 import math
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy.ndimage import gaussian_filter1d, median_filter
 
 from fpt_ros.denoising.offline import Mask, Signal
@@ -36,9 +37,9 @@ def _frames(n: int) -> tuple[int, int]:
     return window, max(1, window // 4)
 
 
-def _power(y: Signal, starts: Signal, window: int) -> Signal:
+def _power(y: Signal, starts: NDArray[np.int64], window: int) -> Signal:
     """Power of the cells, each frame without its line, shape (frames, cells); E = sigma^2."""
-    frames = y[starts.astype(int)[:, None] + np.arange(window)]
+    frames = y[starts[:, None] + np.arange(window)]
     frames = frames - frames.mean(axis=1, keepdims=True)
     t = np.linspace(-1.0, 1.0, window)
     frames -= np.outer(frames @ t / (t @ t), t)
