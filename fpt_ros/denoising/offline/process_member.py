@@ -19,6 +19,9 @@ NEAR = 12.0
 """Kernels within this BIC of the best are kept."""
 CLEAR = 0.0
 """BIC by which coloured noise has to be better than white noise."""
+IDLE, EVEN = 0.3, 6.0
+"""Where white noise leaves so many degrees of freedom per sample to the signal, the record hardly
+changes; then coloured noise is taken if it is as good to within this BIC."""
 LOUDEST = 0.15
 """Share of the variance that coloured noise may have: more is a signal, as far as can be told."""
 
@@ -74,7 +77,9 @@ def _coloured(samples: Samples, white: Process) -> Process | None:
     """The best kernel with AR(1) noise, where that explains the record far better."""
     kernels = [white.kernel, *(k for k in ("smooth", "smooth+tone") if k != white.kernel)]
     found = min((fit(samples, kernel, True) for kernel in kernels[:2]), key=lambda p: p.bic)
-    if found.bic > white.bic - CLEAR:
+    _, df, _ = white.smooth(samples)
+    clear = -EVEN if df > IDLE * samples.count else CLEAR
+    if found.bic > white.bic - clear:
         return None
     known = samples.relative < UNKNOWN
     return found if _total(found) ** 2 < LOUDEST * float(np.var(samples.y[known])) else None
