@@ -91,7 +91,8 @@ def shrink(y: Signal, sigma: Sigma, wavelet: str = "sym8") -> tuple[Signal, floa
     for j in range(transform.levels):
         x = bands[j] / local
         b = beta(x)
-        kept = median(x, share(b, n), b)
-        df += n / 2.0 ** (j + 1) * float(np.mean(_slope(x, share(b, n))))
+        w = share(b, n)
+        kept = median(x, w, b)
+        df += n / 2.0 ** (j + 1) * float(np.mean(_slope(x, w)))
         bands[j] = kept * local
     return transform.synthesise(bands), min(df, float(n))

@@ -8,8 +8,8 @@ from fpt_ros.denoising.offline import Mask, Signal
 
 CLOSE = 1e-3
 """Distances of levels are whole numbers of steps to this accuracy."""
-FEWEST = 8
-"""Samples per level on average where a step is called coarse."""
+FEWEST = 1.5
+"""Samples per level on average: a record that never comes back to a level is not rounded."""
 BELOW = 1.25
 TRUST = 1.2
 """Of the level of rounding: some noise was there before it."""
@@ -24,7 +24,7 @@ def least_step(y: Signal, present: Mask) -> float:
     distances = np.diff(levels)
     # levels that differ by rounding are one
     distances = distances[distances > 1e-9 * size]
-    if len(distances) < 2:
+    if len(distances) < 2 or len(distances) * FEWEST > present.sum():
         return 0.0
     least = float(distances.min())
     for parts in range(1, PARTS + 1):

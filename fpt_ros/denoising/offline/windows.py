@@ -18,7 +18,7 @@ PILOTS, PILOT = 4, 2048
 MOST = 2
 """General smoothers, beside the spline, and special ones, that are kept."""
 LEAST_SHARE = 0.1
-"""Mean weight of a special member in the pilots for which it is kept."""
+"""Mean weight in the pilots for which a special member is kept; half of it for a general one."""
 
 
 def pieces(n: int) -> list[tuple[int, int]]:
@@ -48,6 +48,7 @@ def _choice(pilots: list[Part]) -> library.Choice:
     general = _mean([{n: w * p.weights["general"] for n, w in p.general.items()} for p in pilots])
     special = _mean([p.weights for p in pilots])
     best = sorted(general, key=lambda name: -general[name])[:MOST]
+    best = [name for name in best if general[name] > LEAST_SHARE / 2]
     kept = [n for n in sorted(special, key=lambda n: -special[n]) if special[n] > LEAST_SHARE]
     return library.Choice(frozenset(best), frozenset(kept[: MOST + 1]))
 
