@@ -34,6 +34,11 @@ def noise_sigma(y: Signal, present: Mask | None = None) -> float:
     return _band_sigma(y, present, _DETAIL)
 
 
+def finest_detail(y: Signal) -> Signal:
+    """The undecimated finest db2 detail, shape (n - 3,): the noise of a slow signal."""
+    return np.convolve(y, _DETAIL, mode="valid")
+
+
 def third_difference_sigma(y: Signal, present: Mask | None = None) -> float:
     """MAD(third difference) / sqrt(20): blind to parabolas."""
     return _band_sigma(y, present, _THIRD)

@@ -14,6 +14,7 @@ import pywt
 from scipy.signal import medfilt, savgol_filter
 
 from fpt_ros.denoising.offline import Mask, Method, Signal
+from fpt_ros.denoising.offline.thresholding import soft
 from fpt_ros.errors import BadInput
 from fpt_ros.extras import remedy
 from fpt_ros.parameters import Parameter, Values, integer, word
@@ -49,8 +50,9 @@ def _scikit_image(kind: str) -> Method:
 def _soft_universal(y: Signal, present: Mask, values: Values) -> Signal:
     deepest = pywt.dwt_max_level(len(y), "sym8")
     bands = pywt.wavedec(y, "sym8", level=max(1, min(integer(values, "level"), deepest)))
-    bound = np.median(np.abs(bands[-1])) / 0.6745 * math.sqrt(2.0 * math.log(len(y)))
-    kept = [bands[0], *(pywt.threshold(band, bound, "soft") for band in bands[1:])]
+    bound = float(np.median(np.abs(bands[-1]))) / 0.6745 * math.sqrt(2.0 * math.log(len(y)))
+    # not pywt.threshold, which makes NaN of a 0 at the threshold 0 (PyWavelets issue 866)
+    kept = [bands[0], *(soft(band, bound) for band in bands[1:])]
     return np.asarray(pywt.waverec(kept, "sym8")[: len(y)])
 
 

@@ -14,7 +14,7 @@ import numpy as np
 from numba import njit
 from numpy.typing import NDArray
 
-from fpt_ros.denoising.offline import Signal
+from fpt_ros.denoising.offline import Sigma, Signal, scale_and_weight
 
 PENALTY = 2.5
 LEVELS = 300
@@ -24,14 +24,16 @@ signals pass for stairs."""
 
 
 @njit(cache=True)
-def _pelt(z: Signal, penalty: float) -> NDArray[np.int64]:
+def _pelt(z: Signal, weight: Signal, penalty: float) -> NDArray[np.int64]:
     """First indices of the segments of the optimal partition, ascending, beginning with 0."""
     n = len(z)
     sums = np.zeros(n + 1)
     squares = np.zeros(n + 1)
+    weights = np.zeros(n + 1)
     for i in range(n):
-        sums[i + 1] = sums[i] + z[i]
-        squares[i + 1] = squares[i] + z[i] * z[i]
+        sums[i + 1] = sums[i] + weight[i] * z[i]
+        squares[i + 1] = squares[i] + weight[i] * z[i] * z[i]
+        weights[i + 1] = weights[i] + weight[i]
     best = np.empty(n + 1)
     best[0] = -penalty
     last = np.zeros(n + 1, dtype=np.int64)
@@ -44,7 +46,7 @@ def _pelt(z: Signal, penalty: float) -> NDArray[np.int64]:
         for k in range(count):
             start = starts[k]
             total = sums[end] - sums[start]
-            cost = squares[end] - squares[start] - total * total / (end - start)
+            cost = squares[end] - squares[start] - total * total / (weights[end] - weights[start])
             values[k] = best[start] + cost
             if values[k] < least:
                 least, where = values[k], start
@@ -94,18 +96,23 @@ def _viterbi(y: Signal, levels: Signal, penalty: float, cap: float) -> Signal:
     return path
 
 
-def partition(z: Signal, penalty: float) -> NDArray[np.int64]:
-    """First indices of the segments that minimise the squared error + ``penalty`` [unit of z^2]."""
-    found: NDArray[np.int64] = _pelt(np.ascontiguousarray(z), penalty)
+def partition(z: Signal, penalty: float, weight: Signal | None = None) -> NDArray[np.int64]:
+    """First indices of the segments that minimise the squared error + ``penalty`` [unit of z^2].
+
+    Errors are weighted by ``weight``, shape (n,), if it is given.
+    """
+    weight = np.ones(len(z)) if weight is None else weight
+    found: NDArray[np.int64] = _pelt(np.ascontiguousarray(z), weight, penalty)
     return found
 
 
-def smooth(z: Signal, sigma: float) -> tuple[Signal, float]:
+def smooth(z: Signal, sigma: Sigma) -> tuple[Signal, float]:
     """The piecewise constant estimate, shape (n,), and its degrees of freedom."""
     n = len(z)
-    starts = partition(z - np.median(z), PENALTY * sigma**2 * math.log(n))
+    typical, weight = scale_and_weight(sigma, n)
+    starts = partition(z - np.median(z), PENALTY * typical**2 * math.log(n), weight)
     lengths = np.diff(np.append(starts, n))
-    means = np.add.reduceat(z, starts) / lengths
+    means = np.add.reduceat(weight * z, starts) / np.add.reduceat(weight, starts)
     return np.repeat(means, lengths), DF * len(starts)
 
 

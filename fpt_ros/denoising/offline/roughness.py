@@ -21,7 +21,7 @@ from dataclasses import dataclass, field
 import numpy as np
 from scipy.ndimage import gaussian_filter1d
 
-from fpt_ros.denoising.offline import Signal
+from fpt_ros.denoising.offline import Sigma, Signal, scale_and_weight
 from fpt_ros.denoising.offline.banded import solve
 
 FIRST, MORE = 8, 2
@@ -59,17 +59,18 @@ class Roughness:
     ratio: Signal = field(default_factory=lambda: np.empty(0))
     c: Signal = field(default_factory=lambda: np.empty(0))
 
-    def smooth(self, z: Signal, sigma: float) -> tuple[Signal, float]:
+    def smooth(self, z: Signal, sigma: Sigma) -> tuple[Signal, float]:
         """The smooth curve, shape (n,), and its degrees of freedom."""
         n, z = len(z), np.ascontiguousarray(z)
-        if sigma <= 0.0:
+        if np.max(sigma) <= 0.0:
             return z, float(n)
+        sigma, weight = scale_and_weight(sigma, n)
         size = n - self.order - (0 if self.pitch is None else 2)
         steps = MORE
         if len(self.ratio) != size:
             self.ratio, self.c, steps = np.full(size, START), np.full(size, 2.0), FIRST
         for _ in range(steps):
-            f, rough, doubt, _ = solve(z, 1.0 / self.ratio, self._rows())
+            f, rough, doubt, _ = solve(z, 1.0 / self.ratio, self._rows(), weight)
             known = np.maximum(1.0 - doubt / self.ratio, 1e-6)
             square = _mean((rough / sigma) ** 2, self.width)
             self.ratio = np.clip(square / _mean(known, self.width), LEAST, MOST)
@@ -78,7 +79,7 @@ class Roughness:
                 bend = _mean(np.diff(u, 2) * u[1:-1], self.pitch)
                 power = _mean(u[1:-1] ** 2, self.pitch)
                 self.c = np.clip(2.0 + bend / np.maximum(power, 1e-300), -2.0, 2.0)
-        f, _, _, trace = solve(z, 1.0 / self.ratio, self._rows())
+        f, _, _, trace = solve(z, 1.0 / self.ratio, self._rows(), weight)
         df = trace + 1.0 + CHOICE + LOCAL * n / self.width
         return f, df if self.pitch is None else df + PITCH * n / self.pitch
 

@@ -27,7 +27,7 @@ def _posterior(
     levels: Signal,
     q: float,
     p: float,
-    s: float,
+    sigma: Signal,
     t: float,
     size: float,
     mean: Signal,
@@ -37,9 +37,10 @@ def _posterior(
     n, m = len(y), len(levels)
     density = np.ones((n, m))
     forward = np.empty((n, m))
-    narrow, wide = s * s, s * s + t * t
-    inlier, outlier = (1.0 - p) / s, 0.5 * p / math.sqrt(wide)
     for i in range(n):
+        s = sigma[i]
+        narrow, wide = s * s, s * s + t * t
+        inlier, outlier = (1.0 - p) / s, 0.5 * p / math.sqrt(wide)
         total = 0.0
         for k in range(m):
             if present[i]:
@@ -65,6 +66,7 @@ def _posterior(
         mean[i] = first / total
         leverage[i] = 0.0
         if present[i]:
+            narrow, inlier = sigma[i] * sigma[i], (1.0 - p) / sigma[i]
             for k in range(m):
                 weight = inlier * math.exp(-0.5 * (y[i] - levels[k]) ** 2 / narrow) / density[i, k]
                 share = forward[i, k] / total
@@ -89,6 +91,7 @@ def smooth(y: Signal, present: Mask, noise: Noise, jumps: int) -> tuple[Signal, 
     low, high = np.quantile(y[present], (0.005, 0.995))
     levels = np.linspace(low - noise.s, high + noise.s, LEVELS)
     mean, leverage = np.empty(len(y)), np.empty(len(y))
+    sigma = noise.s * np.broadcast_to(noise.profile, len(y))
     q = SPARSE * max(jumps, 2) / len(y)
-    _posterior(y, present, levels, q, noise.p, noise.s, noise.t, noise.m, mean, leverage)
+    _posterior(y, present, levels, q, noise.p, sigma, noise.t, noise.m, mean, leverage)
     return mean, float(leverage.sum()) + 1.0

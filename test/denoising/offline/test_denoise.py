@@ -6,7 +6,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from fpt_ros.denoising import signals
-from fpt_ros.denoising.offline import DENOISERS, auto, denoise
+from fpt_ros.denoising.offline import DENOISERS, denoise, windows
 from fpt_ros.errors import BadInput
 
 MINE = (
@@ -110,22 +110,26 @@ def test_white_noise_without_impulses():
     assert result.sigma == pytest.approx(0.2, rel=0.1)
 
 
-def test_long_records_go_in_pieces(monkeypatch):
+def test_long_records_go_in_windows(monkeypatch):
     f = signals.clean("sines", 1024)
     y = f + signals.white_noise(1024, 0.2, 4)
-    monkeypatch.setattr(auto, "LONGEST", 600)
-    monkeypatch.setattr(auto, "PIECE", 400)
-    monkeypatch.setattr(auto, "OVERLAP", 60)
-    pieces = auto._pieces(1024)
+    monkeypatch.setattr(windows, "LONGEST", 600)
+    monkeypatch.setattr(windows, "WINDOW", 400)
+    monkeypatch.setattr(windows, "OVERLAP", 60)
+    pieces = windows.pieces(1024)
     covered = np.zeros(1024)
     for a, b in pieces:
         covered[a:b] += 1
     assert covered.min() >= 1
     assert pieces[0][0] == 0
     assert pieces[-1][1] == 1024
-    result = denoise(y)
-    assert result.info == {"pieces": len(pieces)}
+    seen = []
+    result = denoise(y, report=lambda done, total: seen.append((done, total)))
+    assert result.info["pieces"] == len(pieces)
+    assert [done for done, _ in seen] == [b for _, b in pieces]
+    assert {total for _, total in seen} == {1024}
     assert signals.rmse(f, result.estimate) < 0.07
+    assert result.noise.sigma == pytest.approx(0.2, rel=0.15)
 
 
 @pytest.mark.parametrize("method", MINE)

@@ -61,7 +61,8 @@ def test_posterior_by_enumeration():
         return weight @ levels[paths] / weight.sum()
 
     mean, leverage = np.empty(n), np.empty(n)
-    steps._posterior(y, present, levels, q, noise.p, noise.s, noise.t, noise.m, mean, leverage)
+    sigma = np.full(n, noise.s)
+    steps._posterior(y, present, levels, q, noise.p, sigma, noise.t, noise.m, mean, leverage)
     np.testing.assert_allclose(mean, posterior(y), atol=1e-12)
 
 

@@ -26,12 +26,13 @@ def test_banded_least_squares_is_the_dense_one(order, pitch):
     core.ratio, core.c = rng.uniform(0.1, 9, size), rng.uniform(-2, 2, size)
     L = differences(n, order, None if pitch is None else core.c)
     z = rng.standard_normal(n)
-    inverse = np.linalg.inv(np.eye(n) + L.T @ np.diag(1 / core.ratio) @ L)
-    f, rough, doubt, trace = banded.solve(z, 1 / core.ratio, core._rows())
-    np.testing.assert_allclose(f, inverse @ z, atol=1e-9)
-    np.testing.assert_allclose(np.abs(rough), np.abs(L @ inverse @ z), atol=1e-9)
+    weight = rng.uniform(0.2, 3, n)
+    inverse = np.linalg.inv(np.diag(weight) + L.T @ np.diag(1 / core.ratio) @ L)
+    f, rough, doubt, trace = banded.solve(z, 1 / core.ratio, core._rows(), weight)
+    np.testing.assert_allclose(f, inverse @ (weight * z), atol=1e-9)
+    np.testing.assert_allclose(np.abs(rough), np.abs(L @ inverse @ (weight * z)), atol=1e-9)
     np.testing.assert_allclose(doubt, np.diag(L @ inverse @ L.T), atol=1e-9)
-    assert trace == pytest.approx(np.trace(inverse))
+    assert trace == pytest.approx(np.trace(inverse * weight))
 
 
 def test_variances_maximise_the_marginal_likelihood():
