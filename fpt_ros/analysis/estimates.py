@@ -1,21 +1,23 @@
 """Estimates of the signals of a table: in the order of time, and back in the order of the rows."""
 
-import inspect
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
 import numpy as np
 
 from fpt_ros.analysis.signal_source import Source
-from fpt_ros.denoising.offline import Mask, Result, denoise
+from fpt_ros.denoising.offline import DENOISERS, Mask, Result, denoise
 from fpt_ros.errors import BadInput
 from fpt_ros.parameters import Value
 from fpt_ros.runs.run import Array
 from fpt_ros.tables.table import Column, Kind, distinct, titled
 from fpt_ros.tables.time_axis import REMEDY
 
-Progress = Callable[..., None]
-"""Is told how far a method is; :func:`~fpt_ros.denoising.offline.denoise` says in which terms."""
+RATES = {1: "rate", 2: "second rate"}
+"""Names of the columns of derivatives."""
+
+Progress = Callable[[int], None]
+"""Is told how many samples are done."""
 
 
 @dataclass(frozen=True)
@@ -28,6 +30,8 @@ class Estimate:
         estimate: of the clean signal.
         healed: where the sample was missing.
         result: what the method found, in the order of time, holes filled.
+        order: of the derivative that was asked for; 0: none.
+        derivative: of the estimate by time.
     """
 
     signal: Column
@@ -35,6 +39,8 @@ class Estimate:
     estimate: Array
     healed: Mask
     result: Result
+    order: int = 0
+    derivative: Array | None = None
 
     @property
     def residual(self) -> Array:
@@ -48,6 +54,7 @@ def estimate(
     method: str,
     options: Mapping[str, Value],
     progress: Progress | None = None,
+    derivative: int = 0,
 ) -> Estimate:
     """Denoise one signal of a source.
 
@@ -61,9 +68,11 @@ def estimate(
             f"{source.table.name}: {signal.name} is infinite in "
             f"{source.table.where(int(infinite[0]))}: leave missing samples empty"
         )
-    result = _denoise(source, source.spacing.samples(measured), method, options, progress)
+    samples = source.spacing.samples(measured)
+    result = _denoise(source, samples, method, options, progress, derivative)
     rows = source.spacing.rows(result.estimate)
-    return Estimate(signal, measured, rows, np.isnan(measured), result)
+    rate = None if result.derivative is None else source.spacing.rows(result.derivative)
+    return Estimate(signal, measured, rows, np.isnan(measured), result, derivative, rate)
 
 
 def _denoise(
@@ -72,32 +81,30 @@ def _denoise(
     method: str,
     options: Mapping[str, Value],
     progress: Progress | None,
+    derivative: int,
 ) -> Result:
-    """The one call of the method.
-
-    ``t``, ``progress`` (and ``derivative``) are given where ``denoise`` has them. This is the place
-    for ``--derivative`` and ``--streaming`` (a filter run over the record gives a Result too).
-    """
-    spacing, known = source.spacing, inspect.signature(denoise).parameters
-    extra: dict[str, object] = {}
-    if progress is not None and "progress" in known:
-        extra["progress"] = progress
-    if spacing.times is not None and "t" in known:
-        extra["t"] = spacing.times
-    elif not spacing.even:
+    """The one call of the method."""
+    spacing = source.spacing
+    if spacing.times is not None and not spacing.even and DENOISERS[method].whole is None:
         raise BadInput(
-            f"{source.table.name}: {spacing.remarks[-1]}: {method} needs equal spacing; "
-            f"interpolate to it first, {REMEDY}"
+            f"{source.table.name}: {spacing.remarks[-1]}: {method} needs equal spacing, auto does "
+            f"not; or {REMEDY}"
         )
-    return denoise(samples, method, **options, **extra)  # type: ignore[arg-type]
+    uneven = spacing.times is not None and DENOISERS[method].whole is not None
+    return denoise(
+        samples,
+        method,
+        t=spacing.times if uneven else None,
+        dt=spacing.step if source.axis is not None else 1.0,
+        derivative=derivative,
+        report=None if progress is None else lambda done, _: progress(done),
+        **options,
+    )
 
 
 def remarks(source: Source) -> list[str]:
     """What a user should know about how the table and its times were taken."""
-    found = [*source.table.remarks, *source.spacing.remarks]
-    if source.spacing.times is not None and "t" not in inspect.signature(denoise).parameters:
-        found.append("the rows are taken as equally spaced")
-    return found
+    return [*source.table.remarks, *source.spacing.remarks]
 
 
 def columns_with(source: Source, found: list[Estimate]) -> list[Column]:
@@ -108,6 +115,9 @@ def columns_with(source: Source, found: list[Estimate]) -> list[Column]:
         front = f"{one.signal.name} " if len(found) > 1 else ""
         new.append(Column(f"{front}healed", Kind.NUMBER, one.healed.astype(np.int64)))
         new.append(Column(f"{front}estimate", Kind.NUMBER, one.estimate, unit))
+        if one.derivative is not None:
+            per = _per(source, unit, one.order)
+            new.append(Column(f"{front}{RATES[one.order]}", Kind.NUMBER, one.derivative, per))
     titles = [each.title for each in (*source.table.columns, *new)]
     named = distinct(titles)[len(source.table.columns) :]
     return [
@@ -117,6 +127,14 @@ def columns_with(source: Source, found: list[Estimate]) -> list[Column]:
             for each, title in zip(new, named, strict=True)
         ),
     ]
+
+
+def _per(source: Source, unit: str, order: int) -> str:
+    """Unit of a derivative by time."""
+    time = source.axis.unit if source.axis is not None else ""
+    if not time:
+        return ""
+    return f"{unit or '1'}/{time}" + ("\u00b2" if order == 2 else "")
 
 
 def step_of(source: Source) -> tuple[float, str]:

@@ -49,6 +49,9 @@ Out = Annotated[
     ),
 ]
 Plot = Annotated[Path | None, typer.Option(metavar="FILE", help="Picture to draw (png, svg, pdf).")]
+Derivative = Annotated[
+    int, typer.Option(metavar="1|2", help="Also the derivative of the estimate by time.")
+]
 Compare = Annotated[bool, typer.Option("--compare", help="Run all methods and print the table.")]
 
 LONG_TEXT, LONG_RECORD = 20_000_000, 50_000
@@ -64,6 +67,7 @@ def denoise(
     method: Method = "auto",
     set_: Settings = None,
     out: Out = None,
+    derivative: Derivative = 0,
     plot: Plot = None,
     compare: Compare = False,
     json: Json = False,
@@ -81,6 +85,8 @@ def denoise(
 
     Example: fpt denoise log.tsv.gz --column all --time stamp --out smooth.parquet
 
+    Example: fpt denoise encoder.csv --column angle --derivative 1
+
     Example: zcat log.csv.gz | fpt denoise - > smooth.csv
 
     Example: fpt denoise /tmp/tora --topic /joint_states --field position[2] --out q3.csv
@@ -97,7 +103,7 @@ def denoise(
         _compare(source, json)
         return
     options = _options(set_ or [])
-    found = _estimates(source, method, options, every="all" in request.columns)
+    found = _estimates(source, method, options, derivative, every="all" in request.columns)
     paths = [picture_path(pictures, one, len(found)) for one in found] if pictures else []
     write(source, found, target, paths)
     _tell(source, found, file, target, paths, json)
@@ -130,7 +136,7 @@ def _options(settings: list[str]) -> "dict[str, Value]":
 
 
 def _estimates(
-    source: "Source", method: str, options: "dict[str, Value]", every: bool
+    source: "Source", method: str, options: "dict[str, Value]", derivative: int, every: bool
 ) -> "list[Estimate]":
     """The estimates; where all columns are asked for, those that can be had.
 
@@ -144,7 +150,7 @@ def _estimates(
     for signal in source.signals:
         try:
             with _working(signal.name, len(source.table)) as progress:
-                found.append(estimate(source, signal, method, options, progress))
+                found.append(estimate(source, signal, method, options, progress, derivative))
         except BadInput as error:
             if not every:
                 raise

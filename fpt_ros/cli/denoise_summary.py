@@ -79,12 +79,19 @@ def print_found(screen: "Console", source: "Source", found: "Estimate") -> None:
 
 
 def describe(result: "Result") -> str:
-    """What the method chose, and its parameters: the one place that words them.
-
-    Everything in ``info`` is told. What a result will carry besides (the course of sigma, LSB,
-    colour of the noise) is to be worded here.
-    """
-    return ", ".join(f"{name} {_word(value)}" for name, value in result.info.items())
+    """What the method chose, its parameters, and what it found the noise to be."""
+    told = [f"{name} {_word(value)}" for name, value in result.info.items()]
+    noise = result.noise
+    if noise is not None:
+        if noise.most > 1.2 * noise.least:
+            told.append(f"noise from {noise.least:.3g} to {noise.most:.3g} along the record")
+        if noise.step:
+            told.append(f"rounded to steps of {noise.step:.4g}")
+        if noise.impulses > 0.0:
+            told.append(f"{noise.impulses:.2%} impulses")
+        if abs(noise.colour) > 0.05:
+            told.append(f"coloured, AR(1) {noise.colour:.2f}")
+    return ", ".join(told)
 
 
 def _word(value: object) -> str:
