@@ -1,5 +1,6 @@
 # make demo   the TORA experiment over DDS, recorded and reported
-# make test   all tests
+# make test   all tests; exhaustive ones (every cut, every variant over DDS) take a sample
+# make test-all   the same without sampling
 # make same-bits REV=...   compares the working tree with a commit, to the last bit
 # make bench  all benchmarks (three quarters of an hour; the machine should be quiet)
 # make docs   the documentation as a site, in site/
@@ -32,10 +33,10 @@ NEEDS_docs := docs,analysis
 NEEDS_bench := ros,test,bench
 NEEDS_setup := ros,test,lint,docs
 
-.PHONY: help setup demo test same-bits bench lint docs lock clean
+.PHONY: help setup demo test test-all same-bits bench lint docs lock clean
 
 help:
-	@echo "make demo | test | same-bits | bench | lint | docs | setup | lock | clean"
+	@echo "make demo | test | test-all | same-bits | bench | lint | docs | setup | lock | clean"
 
 setup: $(VENV)/.setup
 
@@ -60,12 +61,15 @@ demo: $(VENV)/.demo
 test: $(VENV)/.test
 	@$(BIN)/python -m pytest -n 2 --dist worksteal
 
+test-all: $(VENV)/.test
+	@$(BIN)/python -m pytest -n 2 --dist worksteal --all
+
 REV ?= HEAD
 same-bits: $(VENV)/.test
 	@$(BIN)/python test/same_bits $(REV) $(OPTIONS)
 
 bench: $(VENV)/.bench
-	@for each in engine streaming sweep start graph realtime; do $(BIN)/python benchmarks/$$each.py || exit 1; done
+	@for each in engine long streaming sweep start graph realtime; do $(BIN)/python benchmarks/$$each.py || exit 1; done
 
 lint: $(VENV)/.lint
 	@$(BIN)/ruff check .

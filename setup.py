@@ -179,6 +179,11 @@ setup(
         ],
         "fpt_ros.filters": [
             "adaptive_savgol = fpt_ros.denoising.streaming.adaptive_savgol:ADAPTIVE_SAVGOL",
+            "alpha_beta_gamma = fpt_ros.denoising.streaming.alpha_beta_gamma:ALPHA_BETA_GAMMA",
+            "butterworth = fpt_ros.denoising.streaming.butterworth:BUTTERWORTH",
+            "high_gain = fpt_ros.denoising.streaming.high_gain:HIGH_GAIN",
+            "levant = fpt_ros.denoising.streaming.levant:LEVANT",
+            "one_euro = fpt_ros.denoising.streaming.one_euro:ONE_EURO",
             "finite_difference = fpt_ros.denoising.streaming.finite_difference:FINITE_DIFFERENCE",
             "kalman_bank = fpt_ros.denoising.streaming.kalman_bank:KALMAN_BANK",
             "savgol = fpt_ros.denoising.streaming.savgol:SAVGOL",

@@ -26,21 +26,21 @@ AGREEMENT = 1e-9
 SOURCES = Path(__file__).parent / "c"
 
 
-def engine_of(name: str, cycles: int | None = None) -> Engine:
+def engine_of(name: str, cycles: int | None = None, keep: bool = True) -> Engine:
     """A fresh engine, for the experiment's own duration or for so many cycles."""
     experiment = load(name)
     if cycles is not None:
         dt = experiment.loop().plant.dt
         experiment = experiment.with_values("plant_simulator", duration=cycles * dt)
-    return Engine(experiment.loop())
+    return Engine(experiment.loop(), consumers=None if keep else ())
 
 
-def c_loop(name: str, folder: Path) -> Callable[..., int]:
+def c_loop(name: str, folder: Path, *flags: str) -> Callable[..., int]:
     """The compiled C loop."""
     compiler = shutil.which("cc") or sys.exit("benchmarks/engine.py needs a C compiler (cc)")
-    library = folder / f"{name}.so"
+    library = folder / f"{name}{''.join(flags)}.so"
     source = SOURCES / f"{name}.c"
-    command = [compiler, "-O2", "-shared", "-fPIC", str(source), "-o", str(library), "-lm"]
+    command = [compiler, "-O2", *flags, "-shared", "-fPIC", str(source), "-o", str(library), "-lm"]
     subprocess.run(command, check=True)
     run = ctypes.CDLL(str(library)).run
     run.restype = ctypes.c_long
@@ -50,14 +50,21 @@ def c_loop(name: str, folder: Path) -> Callable[..., int]:
 
 def rows_like(engine: Engine, cycles: int) -> list[np.ndarray]:
     """Fresh memory of the shape of the engine's messages."""
-    rows = [m for vectors in engine._rows.values() for m in vectors]
+    rows = [m for vectors in engine._buffers._arrays.values() for m in vectors]
     return [np.empty((cycles, m.shape[1])) for m in rows]
 
 
-def run_c(run: Callable[..., int], rows: list[np.ndarray]) -> float:
-    """Cycles a second."""
+def rows_of(engine: Engine) -> list[np.ndarray]:
+    """The engine's messages in the order of the C loop, which has rows for a tuner in any case."""
+    topics = engine.topics()
+    kept = [m for name in topics for m in topics[name].vectors.values()]
+    return kept if "tuning" in topics else [*kept[:11], np.empty((len(kept[0]), 0)), *kept[11:]]
+
+
+def run_c(run: Callable[..., int], rows: list[np.ndarray], cycles: int | None = None) -> float:
+    """Cycles a second; of a loop that keeps nothing ``rows`` may be shorter than ``cycles``."""
     pointers = (ctypes.c_void_p * len(rows))(*[row.ctypes.data for row in rows])
-    cycles = len(rows[0])
+    cycles = len(rows[0]) if cycles is None else cycles
     started = perf_counter()
     reached = run(cycles, pointers)
     took = perf_counter() - started
@@ -76,7 +83,7 @@ def check(name: str, run: Callable[..., int], cycles: int) -> float:
     engine.run()
     rows = rows_like(engine, engine.cycles)
     run_c(run, rows)
-    own = [m for vectors in engine._rows.values() for m in vectors]
+    own = rows_of(engine)
     where = engine._loop.trajectory.locate(engine._loop.plant.coordinates)
     experiment = load(name)
     first = round(float(experiment.about["settle_time"]) / engine._loop.plant.dt)

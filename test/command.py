@@ -1,8 +1,12 @@
 """Running the command ``fpt`` as its users do: a process, its exit status and what it prints."""
 
 import json
+import os
+import signal
 import subprocess
 import sys
+import tempfile
+from functools import cache
 from pathlib import Path
 
 BIN = Path(sys.executable).parent
@@ -33,3 +37,46 @@ def start_fpt(*arguments):
         stderr=subprocess.PIPE,
         text=True,
     )
+
+
+@cache
+def _fork_server():
+    """One for all tests of this process; it ends with it, as its input ends."""
+    return subprocess.Popen(
+        [sys.executable, Path(__file__).with_name("fork_server.py")],
+        stdin=subprocess.PIPE,
+        stdout=subprocess.PIPE,
+        text=True,
+        start_new_session=True,
+    )
+
+
+def forked_fpt(*arguments, cwd=None):
+    """As :func:`fpt`, without the second that importing takes: for the many tests of messages."""
+    server = _fork_server()
+    with tempfile.TemporaryDirectory() as folder:
+        stdout, stderr = Path(folder) / "stdout", Path(folder) / "stderr"
+        request = {
+            "arguments": [*map(str, arguments)],
+            "cwd": str(cwd or Path.cwd()),
+            "environment": dict(os.environ),
+            "stdout": str(stdout),
+            "stderr": str(stderr),
+        }
+        try:
+            server.stdin.write(json.dumps(request) + "\n")
+            server.stdin.flush()
+            status = int(server.stdout.readline())
+        except BaseException:  # a test's time is over: its answer must not be the next one's
+            os.killpg(server.pid, signal.SIGKILL)
+            _fork_server.cache_clear()
+            raise
+        return subprocess.CompletedProcess(
+            request["arguments"], status, stdout.read_text(), stderr.read_text()
+        )
+
+
+def forked_fpt_json(*arguments, **options):
+    done = forked_fpt(*arguments, "--json", **options)
+    assert done.returncode == 0, done.stderr
+    return json.loads(done.stdout)

@@ -6,9 +6,22 @@ from pathlib import Path
 
 import made_runs
 import pytest
+import samples
+from hypothesis import settings
 
 DOMAINS = range(1, 101)
 """Those whose ports lie below the range that Linux hands out."""
+
+
+def pytest_addoption(parser):
+    parser.addoption("--all", action="store_true", help="exhaustive tests take no sample")
+
+
+def pytest_configure(config):
+    samples.whole = config.getoption("--all")
+    settings.register_profile("sample", derandomize=True)
+    settings.register_profile("whole")
+    settings.load_profile("whole" if samples.whole else "sample")
 
 
 @pytest.fixture(autouse=True)

@@ -5,6 +5,12 @@
 #include <math.h>
 #include <string.h>
 
+#ifdef NOTHING_KEPT /* all cycles in the same row */
+#define ROW(k) 0
+#else
+#define ROW(k) (k)
+#endif
+
 typedef struct {
     double last_q[N], last_v[N], last_effort[N], last_r[N]; /* of the cycle before */
     double p, seen_r[N], seen_step[N];                      /* precursor observer */
@@ -51,11 +57,11 @@ long run(long cycles, double **rows)
     }
     for (long k = 0; k < cycles; k++) {
         double t = k * (double)CYCLE / 1e9, elapsed = k ? DT : 0;
-        double *js_q = rows[0] + k * N, *js_v = rows[1] + k * N, *js_Q = rows[2] + k * N;
-        double *se_q = rows[3] + k * N, *se_v = rows[4] + k * N, *se_y = rows[5] + k * N;
-        double *se_r = rows[6] + k * N;
-        double *d_q = rows[7] + k * C, *d_v = rows[8] + k * C, *d_y = rows[9] + k * C;
-        double *d_s = rows[10] + k * C, *out_r = rows[12] + k * N, *out_Q = rows[13] + k * N;
+        double *js_q = rows[0] + ROW(k) * N, *js_v = rows[1] + ROW(k) * N, *js_Q = rows[2] + ROW(k) * N;
+        double *se_q = rows[3] + ROW(k) * N, *se_v = rows[4] + ROW(k) * N, *se_y = rows[5] + ROW(k) * N;
+        double *se_r = rows[6] + ROW(k) * N;
+        double *d_q = rows[7] + ROW(k) * C, *d_v = rows[8] + ROW(k) * C, *d_y = rows[9] + ROW(k) * C;
+        double *d_s = rows[10] + ROW(k) * C, *out_r = rows[12] + ROW(k) * N, *out_Q = rows[13] + ROW(k) * N;
         double s[N], r[C], h[C], G[C], acting[N], a[N];
         for (int i = 0; i < N; i++) {
             js_q[i] = se_q[i] = q[i];
@@ -80,9 +86,9 @@ long run(long cycles, double **rows)
         if (TUNED) {
             if (k)
                 observe(&m);
-            tune(&m, k, se_y, d_y, rows[11] + k * TUNED);
-            rows[11][k * TUNED + TUNED - 2] = m.p;
-            rows[11][k * TUNED + TUNED - 1] = 1;
+            tune(&m, k, se_y, d_y, rows[11] + ROW(k) * TUNED);
+            rows[11][ROW(k) * TUNED + TUNED - 2] = m.p;
+            rows[11][ROW(k) * TUNED + TUNED - 1] = 1;
         }
         int now = k % DELAY, then = (k + 1) % DELAY;
         for (int i = 0; i < N; i++)

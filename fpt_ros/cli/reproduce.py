@@ -12,12 +12,16 @@ if TYPE_CHECKING:
 
     from rich.table import Table
 
-    from fpt_ros.thesis.claim import Chapter
-    from fpt_ros.thesis.page import Outcome
+    from fpt_ros.thesis.chapters import Chapter
+    from fpt_ros.thesis.judging import Outcome
 
 Chapters = Annotated[
     list[int] | None,
     typer.Option("--chapter", metavar="N", help="Of the thesis; repeatable; default: all."),
+]
+Claims = Annotated[
+    list[str] | None,
+    typer.Option("--claim", metavar="ID", help="As the page names it (3.1.1a); repeatable."),
 ]
 Out = Annotated[Path, typer.Option(metavar="DIR", help="Where the page goes.")]
 
@@ -25,7 +29,10 @@ COLOURS = {"yes": "green", "only if": "yellow", "no": "red"}
 
 
 def reproduce(
-    chapter: Chapters = None, out: Out = Path("reproduction"), json: Json = False
+    chapter: Chapters = None,
+    claim: Claims = None,
+    out: Out = Path("reproduction"),
+    json: Json = False,
 ) -> None:
     """Run the experiments of the thesis and judge each of its claims: one HTML page.
 
@@ -34,9 +41,12 @@ def reproduce(
     from time import perf_counter
 
     from fpt_ros.cli.output import console, print_json, progress_bar
-    from fpt_ros.thesis.page import as_json, check_directory, judge_all, wanted, write_page
+    from fpt_ros.thesis.chapters import wanted
+    from fpt_ros.thesis.claims_json import as_json
+    from fpt_ros.thesis.judging import judge_all
+    from fpt_ros.thesis.page import check_directory, write_page
 
-    asked = wanted(chapter or ())
+    asked = wanted(chapter or (), claim or ())
     check_directory(out)
     started = perf_counter()
     total = sum(len(one.claims) for one in asked)
@@ -60,8 +70,8 @@ def _table(asked: "Sequence[Chapter]", found: "Mapping[str, Outcome]") -> "Table
     for heading in ("", "claim", "reproduces"):
         table.add_column(heading)
     for one in asked:
-        for name, claim in one.claims.items():
+        for name, judged in one.claims.items():
             status = found[name].verdict.status
-            table.add_row(name, Text(claim.text), Text(status, COLOURS[status]))
+            table.add_row(name, Text(judged.text), Text(status, COLOURS[status]))
         table.add_section()
     return table

@@ -29,13 +29,6 @@ from fpt_ros.cycle.motion import (
     Step,
     measure,
 )
-from fpt_ros.cycle.parameter_tuner import (
-    TunerConstants,
-    TunerMemory,
-    TunerWork,
-    phase_of,
-    tuning_cycle,
-)
 from fpt_ros.cycle.rows import (
     CommandRow,
     CommandRows,
@@ -53,6 +46,13 @@ from fpt_ros.cycle.trajectory_generator import (
     TrajectoryMemory,
     prescribe,
     slot,
+)
+from fpt_ros.cycle.tuning import (
+    TunerConstants,
+    TunerMemory,
+    TunerWork,
+    phase_of,
+    tuning_cycle,
 )
 from fpt_ros.denoising.streaming import Update as Filter
 from fpt_ros.laws import Matrix

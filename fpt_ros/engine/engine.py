@@ -1,28 +1,33 @@
 """The in-process engine: the control cycle over a whole run, compiled, without ROS."""
 
 from collections.abc import Callable, Sequence
-from functools import partial
 from typing import Any
 
 import numpy as np
 
 from fpt_ros.cycle import loop as cycle
 from fpt_ros.cycle.loop import CycleConstants, CycleMemory, CycleWork
-from fpt_ros.cycle.parameter_tuner import TunerConstants, TunerMemory, TunerWork
 from fpt_ros.cycle.rows import CommandRow
 from fpt_ros.cycle.run import Run
 from fpt_ros.cycle.stages import Loop
+from fpt_ros.cycle.tuning import TunerConstants, TunerMemory, TunerWork
 from fpt_ros.engine import compiled
 from fpt_ros.engine.buffers import Buffers, Whole
+from fpt_ros.engine.in_python import in_python
+from fpt_ros.engine.relay import Relay
 from fpt_ros.engine.types import Array, as_arrays, empty
 from fpt_ros.errors import Diverged, RunFailed
 from fpt_ros.messages.frames import SECOND, Command, StateEstimate
 from fpt_ros.messages.topics import COMMAND
+from fpt_ros.notices import notice
 from fpt_ros.runs.chunks import CHUNK, Consumer
 from fpt_ros.runs.run import Series
 
 LONG = 500_000
 """Cycles from which a specialised loop is worth the seconds that it takes, once."""
+
+SLOWER = "about 100 times slower"
+"""As measured with TORA."""
 
 
 class Engine:
@@ -55,7 +60,9 @@ class Engine:
         self._loop = loop
         self.done = 0
         self._whole = Whole() if consumers is None else None
-        self._consumers = [self._whole] if self._whole is not None else list(consumers or ())
+        taking = [self._whole] if self._whole is not None else list(consumers or ())
+        long = loop.plant.cycles >= LONG
+        self._relay = Relay(taking, beside=long)
         plant, denoiser, tuner = loop.plant, loop.denoiser, loop.tuner
         denoiser.begin(plant.measure(0, 0), plant.dt)
         if tuner.active and not tuner.published:
@@ -68,6 +75,7 @@ class Engine:
         self._memory = _memory(loop, self._states, self._command)
         self._work = _work(loop)
         self._buffers = Buffers(loop, min(CHUNK, plant.cycles))
+        self._spare = Buffers(loop, CHUNK) if long else self._buffers
         self._run: Callable[..., int] = self._prepare(compile_laws)
 
     def _prepare(self, compile_laws: bool) -> Callable[..., int]:
@@ -83,9 +91,13 @@ class Engine:
             self._loop.plant.law,
         )
         if not compile_laws:
-            return partial(cycle.run, *laws)
+            return in_python(laws)
         loop_with = compiled.specialised_loop if self.cycles >= LONG else compiled.loop
-        return loop_with(cycle.run, laws)
+        try:
+            return loop_with(cycle.run, laws)
+        except compiled.NotCompiled as error:
+            notice(f"a law cannot be compiled, {error.why}; the run is in Python, {SLOWER}")
+            return in_python(laws)
 
     @property
     def cycles(self) -> int:
@@ -103,10 +115,13 @@ class Engine:
             Diverged: the messages up to there have been given to the consumers.
         """
         total = self._loop.plant.cycles
-        while self.done < total:
-            if progress is not None:
-                progress(self.done)
-            self._advance(min(self.done + CHUNK, total))
+        try:
+            while self.done < total:
+                if progress is not None:
+                    progress(self.done)
+                self._advance(min(self.done + CHUNK, total))
+        finally:
+            self._relay.wait()
         if progress is not None:
             progress(total)
 
@@ -141,9 +156,8 @@ class Engine:
     def _hand_over(self, first: int, end: int) -> None:
         self.done = end
         if end > first:
-            chunk = self._buffers.series(first, end)
-            for consumer in self._consumers:
-                consumer.take(chunk)
+            self._relay.give(self._buffers.series(first, end))
+            self._buffers, self._spare = self._spare, self._buffers
 
     def _remembered(self) -> list[Array]:
         """All that a cycle changes and the next one needs."""

@@ -1,39 +1,27 @@
 """Experiments: parameter files, their variants, and what was changed on the command line."""
 
-from collections.abc import Callable, Iterable
+from collections.abc import Iterable
 from dataclasses import dataclass, field, replace
-from functools import partial
 from pathlib import Path
 from typing import cast
 
-from fpt_ros.cycle.denoiser import FILTER_OF_NOISE, METHOD, SYNCHRONISED, Denoiser
+from fpt_ros.cycle.denoiser import Denoiser
 from fpt_ros.cycle.fpt_deformer import FptDeformer
 from fpt_ros.cycle.parameter_tuner import ParameterTuner, in_the_loop
 from fpt_ros.cycle.plant_simulator import PlantSimulator
-from fpt_ros.cycle.stage import CYCLE_TIME, JOINTS
-from fpt_ros.cycle.stages import STAGES, Loop
+from fpt_ros.cycle.stages import Loop
 from fpt_ros.cycle.trajectory_generator import TrajectoryGenerator
-from fpt_ros.cycle.tuned import CONTROLLED
 from fpt_ros.errors import BadInput
 from fpt_ros.experiments import description, parameter_file
 from fpt_ros.experiments.checks import check_fit
+from fpt_ros.experiments.derived import derive_names, filter_noise, share_synchronised
 from fpt_ros.experiments.locate import config_directory
 from fpt_ros.experiments.parameter_file import ParameterFile
-from fpt_ros.parameters import Parameter, Value, Values, resolve, word
-from fpt_ros.plants import PLANTS, made
+from fpt_ros.experiments.sections import SECTIONS, declared_by, resolved
+from fpt_ros.parameters import Value
 
 BASE = "adaptive"
 """Name of the variant that is the file itself, without an overlay."""
-
-SECTIONS: dict[str, Callable[[Values], tuple[Parameter, ...]]] = {
-    **{name: stage.parameters for name, stage in STAGES.items()},
-    description.NODE: description.parameters,
-}
-"""The nodes of a file, each with its parameters as a function of what is given."""
-
-
-OWN_CONTROLLED = (TrajectoryGenerator.name, CONTROLLED.name)
-"""Where it is said which coordinates are controlled; other nodes are told."""
 
 
 @dataclass(frozen=True)
@@ -141,8 +129,8 @@ def load(
     for node, parameter, value in changes:
         _apply(file, node, parameter, value)
     file.nodes[description.NODE].update(experiment=path.stem, variant=variant)
-    _share_synchronised(file)
-    _filter_noise(file)
+    share_synchronised(file)
+    filter_noise(file)
     in_loop = in_the_loop(file.nodes[ParameterTuner.name])
     for node, parameter, value in changes:
         if parameter == "await_tuning" and value != in_loop:
@@ -151,9 +139,9 @@ def load(
         section_values.pop("await_tuning", None)
     file.shared["await_tuning"] = in_loop
     explicit = {(node, parameter) for node, parameter, _ in changes}
-    _derive_names(file, _resolve(PlantSimulator.name, file, base, explicit), changes)
+    derive_names(file, resolved(PlantSimulator.name, file, base, explicit), changes)
     _check_shared(path, file, base)
-    nodes = {node: _resolve(node, file, base, explicit) for node in SECTIONS}
+    nodes = {node: resolved(node, file, base, explicit) for node in SECTIONS}
     experiment = Experiment(path.stem, variant, nodes, source)
     experiment.loop()
     return experiment
@@ -165,49 +153,7 @@ def complete(file: ParameterFile) -> dict[str, dict[str, Value]]:
     Raises:
         BadInput: as :func:`load`.
     """
-    return {node: _resolve(node, file, file, set()) for node in SECTIONS if node in file.nodes}
-
-
-def _share_synchronised(file: ParameterFile) -> None:
-    """What the deformer is told, or all nodes, holds for deformer and denoiser alike."""
-    name = SYNCHRONISED.name
-    given = file.nodes[FptDeformer.name].get(name, file.shared.get(name))
-    for node in (FptDeformer.name, Denoiser.name):
-        file.nodes[node].pop(name, None)
-    if given is not None:
-        file.shared[name] = given
-
-
-def _derive_names(
-    file: ParameterFile, plant: Values, changes: Iterable[tuple[str, str, object]]
-) -> None:
-    """What all nodes know of the plant and of the motion: joints, cycle time, controlled."""
-    controlled = file.nodes[TrajectoryGenerator.name].get(CONTROLLED.name)
-    derived: dict[str, object] = {
-        JOINTS.name: list(made(PLANTS[word(plant, "plant")], plant, "exact").coordinates),
-        CYCLE_TIME.name: plant["dt"],
-        CONTROLLED.name: controlled if controlled is not None else [],
-    }
-    for node, parameter, value in changes:
-        if (node, parameter) == OWN_CONTROLLED or parameter not in derived:
-            continue
-        if value != derived[parameter]:
-            raise BadInput(f"{node}.{parameter} follows from plant and trajectory: leave it out")
-    for name in derived:
-        file.shared.pop(name, None)
-    for node, parameters in SECTIONS.items():
-        values = file.nodes[node]
-        for name in _declared(parameters, {**file.shared, **values}) & derived.keys():
-            if (node, name) != OWN_CONTROLLED:
-                values[name] = cast(Value, derived[name])
-
-
-def _filter_noise(file: ParameterFile) -> None:
-    """Noisy measurements are filtered where nobody has chosen how."""
-    plant = {**file.shared, **file.nodes[PlantSimulator.name]}
-    noisy = any(plant.get(f"noise.{kind}") for kind in ("position", "velocity"))
-    if noisy and METHOD.name not in {**file.shared, **file.nodes[Denoiser.name]}:
-        file.nodes[Denoiser.name][METHOD.name] = FILTER_OF_NOISE
+    return {node: resolved(node, file, file, set()) for node in SECTIONS if node in file.nodes}
 
 
 def _check_nodes(path: Path, file: ParameterFile) -> None:
@@ -222,7 +168,7 @@ def _check_shared(path: Path, file: ParameterFile, base: ParameterFile) -> None:
     known: set[str] = set()
     for version in (base, file):
         for node, parameters in SECTIONS.items():
-            known |= _declared(parameters, {**version.shared, **version.nodes[node]})
+            known |= declared_by(parameters, {**version.shared, **version.nodes[node]})
     for name in file.shared:
         if name not in known:
             raise BadInput(
@@ -283,31 +229,3 @@ def _apply(file: ParameterFile, node: str, parameter: str, value: object) -> Non
     if parameter in file.shared and parameter not in target:
         target = file.shared
     target[parameter] = cast(Value, value)
-
-
-def _resolve(
-    node: str, file: ParameterFile, base: ParameterFile, explicit: set[tuple[str, str]]
-) -> dict[str, Value]:
-    """Complete, checked parameters of a node.
-
-    A value of the base file that belongs to a law which the variant replaced is dropped.
-    """
-    declared = partial(_declared, SECTIONS[node])
-    before = declared({**base.shared, **base.nodes[node]})
-    given = {**file.shared, **file.nodes[node]}
-    now = declared(given)
-    own = {
-        name: value
-        for name, value in file.nodes[node].items()
-        if name in now or name not in before or (node, name) in explicit
-    }
-    shared = {
-        name: value
-        for name, value in file.shared.items()
-        if name in now or (node, name) in explicit
-    }
-    return resolve(SECTIONS[node](given), {**shared, **own}, node)
-
-
-def _declared(parameters: Callable[[Values], tuple[Parameter, ...]], given: Values) -> set[str]:
-    return {parameter.name for parameter in parameters(given)}

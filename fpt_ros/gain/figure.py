@@ -7,7 +7,7 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
 from fpt_ros.analysis import style
-from fpt_ros.gain.contraction import (
+from fpt_ros.gain.bands import (
     CHAOS,
     DOUBLING,
     DOUBLING_TO_CHAOS,
@@ -17,8 +17,8 @@ from fpt_ros.gain.contraction import (
     PRECURSOR,
     RUNS_AWAY,
     TWO_CYCLE,
-    Gain,
 )
+from fpt_ros.gain.limits import Gain
 from fpt_ros.gain.motion import Course
 from fpt_ros.runs.run import Array
 

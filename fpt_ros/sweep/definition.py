@@ -10,7 +10,8 @@ from typing import Any, cast
 
 from fpt_ros import __version__
 from fpt_ros.errors import BadInput
-from fpt_ros.experiments.experiment import SECTIONS, Experiment, is_path, load
+from fpt_ros.experiments.experiment import Experiment, is_path, load
+from fpt_ros.experiments.sections import SECTIONS
 from fpt_ros.parameters import Parameter, Value
 from fpt_ros.sweep.grid import Axis, Space, parse, values
 from fpt_ros.sweep.job import Job

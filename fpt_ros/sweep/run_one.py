@@ -10,9 +10,9 @@ from fpt_ros.engine.engine import Engine
 from fpt_ros.errors import BadInput, Diverged, RunFailed
 from fpt_ros.experiments.experiment import Experiment
 from fpt_ros.runs.run import describe
-from fpt_ros.sweep.ground import Experiments, experiments_of
 from fpt_ros.sweep.job import COMPLETE, DIVERGED, FAILED, INVALID, Job, Row
 from fpt_ros.sweep.metric import metric
+from fpt_ros.sweep.point_experiments import Experiments, experiments_of
 
 
 def run_chunk(job: Job, numbers: Sequence[int]) -> tuple[float, list[Row]]:

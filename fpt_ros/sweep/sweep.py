@@ -55,22 +55,22 @@ def _rows(job: Job, journal: Journal, pool: Pool, progress: Progress) -> Iterato
     """Rows as they come; a few chunks for each worker are under way at any time."""
     numbers = journal.missing()
     again: deque[tuple[list[int], int]] = deque()
-    under_way: dict[Future[Any], tuple[list[int], int]] = {}
+    running: dict[Future[Any], tuple[list[int], int]] = {}
     left, size = journal.missing_count, 1
     try:
         while True:
-            while len(under_way) < 2 * pool.slots + 1:
+            while len(running) < 2 * pool.slots + 1:
                 chunk, tries = again.popleft() if again else (list(islice(numbers, size)), 0)
                 if not chunk:
                     break
-                under_way[pool.submit(run_chunk, job, chunk)] = chunk, tries
-            if not under_way:
+                running[pool.submit(run_chunk, job, chunk)] = chunk, tries
+            if not running:
                 return
-            ready, _ = wait(under_way, timeout=0.2, return_when=FIRST_COMPLETED)
+            ready, _ = wait(running, timeout=0.2, return_when=FIRST_COMPLETED)
             progress(journal.done, journal.lost)
             broken: BaseException | None = None
             for future in ready:
-                chunk, tries = under_way.pop(future)
+                chunk, tries = running.pop(future)
                 failure = future.exception()
                 if failure is None:
                     seconds, rows = future.result()
@@ -87,7 +87,7 @@ def _rows(job: Job, journal: Journal, pool: Pool, progress: Progress) -> Iterato
                     raise RunFailed(f"workers die again and again: {_line(broken)}") from broken
                 pool.repair(broken)
     finally:
-        for future in under_way:
+        for future in running:
             future.cancel()
 
 

@@ -10,11 +10,11 @@ from fpt_ros.errors import BadInput, RunFailed
 from fpt_ros.experiments.experiment import Experiment, load
 from fpt_ros.parameters import Value
 from fpt_ros.sweep.grid import Space, parse
-from fpt_ros.sweep.ground import experiments_of
 from fpt_ros.sweep.job import Job
-from fpt_ros.sweep.knob import OVER_FORM, Knob, read_knob
 from fpt_ros.sweep.metric import metric, metrics_of
+from fpt_ros.sweep.point_experiments import experiments_of
 from fpt_ros.sweep.run_one import simulate
+from fpt_ros.sweep.tuned_parameter import OVER_FORM, TunedParameter, read_tuned_parameter
 
 LOST = 1e12
 """The score of a run that is not complete; less so where it lasted longer."""
@@ -50,13 +50,13 @@ class Task:
 
     Attributes:
         job: how an experiment is made from values.
-        knobs: what is tuned.
+        parameters: what is tuned.
         metrics: what shall be small; of several the mean of the logarithms.
         limits: what must not be exceeded.
     """
 
     job: Job
-    knobs: tuple[Knob, ...]
+    parameters: tuple[TunedParameter, ...]
     metrics: tuple[str, ...]
     limits: Mapping[str, float]
 
@@ -88,14 +88,14 @@ def define(
         if not (equals and math.isfinite(value) and value > 0.0):
             raise BadInput(f"--limit {text}: {LIMIT_FORM}")
         bounds.update(dict.fromkeys(metrics_of(loop, [of.strip()]), value))
-    knobs = tuple(read_knob(text, experiment) for text in _parts(over))
-    if not knobs:
+    parameters = tuple(read_tuned_parameter(text, experiment) for text in _parts(over))
+    if not parameters:
         raise BadInput(f"nothing is to be tuned: {OVER_FORM}")
-    if len({str(knob.target) for knob in knobs}) < len(knobs):
+    if len({str(p.target) for p in parameters}) < len(parameters):
         raise BadInput("--over names a parameter twice")
-    axes = tuple(parse(f"{k.target}={k.low!r}:{k.high!r}:2") for k in knobs)
+    axes = tuple(parse(f"{p.target}={p.low!r}:{p.high!r}:2") for p in parameters)
     job = Job(name, variant, tuple(given), duration, Space(axes), (), chosen)
-    return Task(job, knobs, chosen, bounds)
+    return Task(job, parameters, chosen, bounds)
 
 
 def search(task: Task, trials: int, seed: int, progress: Callable[[int, float], None]) -> Result:
@@ -114,15 +114,17 @@ def search(task: Task, trials: int, seed: int, progress: Callable[[int, float], 
         warnings.simplefilter("ignore", optuna.exceptions.ExperimentalWarning)
         sampler = optuna.samplers.TPESampler(seed=seed, multivariate=True, n_startup_trials=STARTUP)
     study = optuna.create_study(sampler=sampler)
-    present = {str(knob.target): knob.present for knob in task.knobs}
-    inside = all(knob.low <= knob.present <= knob.high for knob in task.knobs)
+    present = {str(p.target): p.present for p in task.parameters}
+    inside = all(
+        parameter.low <= parameter.present <= parameter.high for parameter in task.parameters
+    )
     if inside:
-        study.enqueue_trial({str(k.target): k.inner(k.present) for k in task.knobs})
-    before = _result(task, tuple(_typed(knob, knob.present) for knob in task.knobs))
+        study.enqueue_trial({str(p.target): p.inner(p.present) for p in task.parameters})
+    before = _result(task, tuple(_typed(p, p.present) for p in task.parameters))
     best, best_point, nearest = math.inf, None, math.inf
     for number in range(trials):
         trial = study.ask()
-        drawn = tuple(knob.suggest(trial) for knob in task.knobs)
+        drawn = tuple(p.suggest(trial) for p in task.parameters)
         result = _result(task, drawn)
         score = _score(task, result)
         excess = {name: _excess(result, name, top) for name, top in task.limits.items()}
@@ -138,7 +140,9 @@ def search(task: Task, trials: int, seed: int, progress: Callable[[int, float], 
     if best_point is None:
         raise RunFailed(_nothing(task, trials, nearest))
     experiment, loop = experiments_of(task.job).at(best_point)
-    found = {str(k.target): cast("float", v) for k, v in zip(task.knobs, best_point, strict=True)}
+    found = {
+        str(k.target): cast("float", v) for k, v in zip(task.parameters, best_point, strict=True)
+    }
     after = simulate(experiment, loop)
     assert before is not None
     return Result(experiment, before, after, present, found, trials)
@@ -148,8 +152,8 @@ def _parts(texts: Sequence[str]) -> list[str]:
     return [part.strip() for text in texts for part in text.split(",") if part.strip()]
 
 
-def _typed(knob: Knob, value: float) -> Value:
-    return int(value) if knob.whole else value
+def _typed(parameter: TunedParameter, value: float) -> Value:
+    return int(value) if parameter.whole else value
 
 
 def _result(task: Task, point: tuple[Value, ...]) -> Mapping[str, object] | None:

@@ -4,7 +4,8 @@ import shlex
 from collections.abc import Sequence
 from typing import Any
 
-from fpt_ros.thesis.claim import Claim, Setup
+from fpt_ros.thesis.claim import Claim
+from fpt_ros.thesis.setup import Setup
 from fpt_ros.thesis.trials import Trial
 
 LOOP = 4

@@ -12,9 +12,10 @@ from fpt_ros.analysis.legends import colour_of
 from fpt_ros.analysis.panels import Panels
 from fpt_ros.cycle.plant_simulator import PlantSimulator
 from fpt_ros.runs.run import Array, Run, Series
-from fpt_ros.thesis.claim import Drawn, Runs
+from fpt_ros.thesis.claim import Drawn
 from fpt_ros.thesis.measures import responses as response_rows
 from fpt_ros.thesis.measures import thinned
+from fpt_ros.thesis.setup import Runs
 
 Draw = Callable[[Runs], Drawn | None]
 Build = Callable[[Sequence[Run]], Panels | None]

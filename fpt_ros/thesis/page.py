@@ -1,232 +1,28 @@
-"""The page about what of the thesis reproduces: claims judged by runs, on all cores."""
+"""The page about what of the thesis reproduces."""
 
 import base64
-import io
 import json
 import math
-import multiprocessing
 import os
 import re
-import signal
-from collections import Counter
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from concurrent.futures import ProcessPoolExecutor, as_completed
-from concurrent.futures.process import BrokenProcessPool
-from contextlib import contextmanager
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-import numpy as np
-from matplotlib.backends.backend_agg import FigureCanvasAgg
-from matplotlib.figure import Figure
-from PIL import Image
-
 from fpt_ros import __version__
-from fpt_ros.analysis import pages, style
+from fpt_ros.analysis import pages
 from fpt_ros.analysis.tables import number_text
 from fpt_ros.analysis.whole_files import write_whole
-from fpt_ros.errors import BadInput, RunFailed
-from fpt_ros.thesis.claim import STATUSES, Chapter, Claim, Picture, Setup, Source, Verdict, chapters
+from fpt_ros.errors import BadInput
+from fpt_ros.thesis.chapters import Chapter
+from fpt_ros.thesis.claim import Claim, Evidence
+from fpt_ros.thesis.claims_json import as_json
 from fpt_ros.thesis.commands import commands
+from fpt_ros.thesis.judging import Outcome, Shown, count
+from fpt_ros.thesis.setup import Setup
 
 TEMPLATE = "page.html.j2"
-DPI = 110
-COLOURS = 128
-
-
-@dataclass(frozen=True)
-class Shown:
-    """A picture as the page has it; ``data``: PNG."""
-
-    thesis: str
-    title: str
-    caption: str
-    data: bytes
-
-
-@dataclass(frozen=True)
-class Outcome:
-    """What became of one claim.
-
-    Attributes:
-        endings: of its runs that did not come to their end, by key: why.
-    """
-
-    verdict: Verdict
-    pictures: tuple[Shown, ...]
-    endings: Mapping[str, str]
-
-
-def wanted(numbers: Sequence[int]) -> list[Chapter]:
-    """Chapters by their numbers; all where there are none.
-
-    Raises:
-        BadInput: one of them has no claims.
-    """
-    known = chapters()
-    for number in numbers:
-        if number not in known:
-            valid = ", ".join(map(str, known))
-            raise BadInput(f"--chapter {number}: it takes one of {valid}")
-    return [chapter for number, chapter in known.items() if number in numbers or not numbers]
-
-
-def judge_all(
-    asked: Sequence[Chapter], progress: Callable[[int], None], workers: int | None = None
-) -> dict[str, Outcome]:
-    """Make all runs of the claims, judge and draw them, in processes of their own.
-
-    Args:
-        asked: chapters.
-        progress: is told how many claims are done.
-        workers: processes; ``None``: as many as there are cores to use.
-
-    Returns:
-        By claim, in the order of the chapters.
-
-    Raises:
-        RunFailed: a worker was killed.
-        KeyboardInterrupt: Ctrl-C; the workers are ended.
-    """
-    tasks = [(chapter.number, name) for chapter in asked for name in chapter.claims]
-    before = set(multiprocessing.active_children())
-    found: dict[str, Outcome] = {}
-    pool = ProcessPoolExecutor(
-        min(workers or len(os.sched_getaffinity(0)), len(tasks)),
-        multiprocessing.get_context("spawn"),
-    )
-    try:
-        # the longest first, so that no core waits for it at the end
-        order = sorted(tasks, key=lambda task: -_effort(chapters()[task[0]].claims[task[1]]))
-        with _held_interrupts(), _one_thread_each():  # by the workers too, which are started here
-            futures = {pool.submit(outcome_of, *task): task[1] for task in order}
-        progress(0)
-        for done, future in enumerate(as_completed(futures), 1):
-            found[futures[future]] = future.result()
-            progress(done)
-    except BrokenProcessPool as error:
-        raise RunFailed(
-            "a worker process was killed, most likely for want of memory: a core takes up to 1 GB"
-        ) from error
-    except BaseException:
-        for process in set(multiprocessing.active_children()) - before:
-            process.terminate()
-        raise
-    finally:
-        pool.shutdown(cancel_futures=True)
-    return {name: found[name] for _, name in tasks}
-
-
-@contextmanager
-def _held_interrupts() -> Iterator[None]:
-    """Processes that are started meanwhile never see Ctrl-C: the parent ends them.
-
-    They inherit the blocked signal. One that comes meanwhile waits, and is not lost.
-    """
-    before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
-    try:
-        yield
-    finally:
-        signal.pthread_sigmask(signal.SIG_SETMASK, before)
-
-
-@contextmanager
-def _one_thread_each() -> Iterator[None]:
-    """Processes that are started meanwhile do their linear algebra on one thread.
-
-    There are as many of them as cores; small systems on more threads only wait for each other.
-    """
-    names = ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS")
-    before = {name: os.environ.get(name) for name in names}
-    os.environ.update(dict.fromkeys(names, "1"))
-    try:
-        yield
-    finally:
-        for name, value in before.items():
-            if value is None:
-                del os.environ[name]
-            else:
-                os.environ[name] = value
-
-
-def _effort(claim: Claim[Any]) -> float:
-    """A rough measure of how long a claim takes."""
-    return sum(source.effort for source in claim.runs.values()) + 4.0 * len(claim.pictures)
-
-
-def outcome_of(chapter: int, name: str) -> Outcome:
-    """Make the runs of one claim, judge them, and draw its pictures."""
-    claim = chapters()[chapter].claims[name]
-    runs = claim.perform()
-    endings = {key: claim.runs[key].ending(result) for key, result in runs.items()}
-    endings = {key: reason for key, reason in endings.items() if reason}
-    with style.settings():
-        pictures = [_shown(picture, runs) for picture in claim.pictures]
-    return Outcome(claim.judge(runs), tuple(p for p in pictures if p is not None), endings)
-
-
-def _shown(picture: Picture[Any], runs: Mapping[str, Any]) -> Shown | None:
-    drawn = picture.draw(runs)
-    if drawn is None:
-        return None
-    figure, remarks = drawn
-    caption = " ".join(filter(None, [picture.caption, *remarks]))
-    return Shown(picture.thesis, picture.title, caption, _png(figure))
-
-
-def _png(figure: Figure) -> bytes:
-    """The figure in few colours: a third of the size, and nothing to be seen of it."""
-    canvas = FigureCanvasAgg(figure)
-    figure.set_dpi(DPI)
-    canvas.draw()  # type: ignore[no-untyped-call]
-    pixels = np.asarray(canvas.buffer_rgba())  # type: ignore[no-untyped-call]
-    image = Image.fromarray(pixels[:, :, :3].copy())
-    buffer = io.BytesIO()
-    image.quantize(COLOURS, Image.Quantize.MEDIANCUT, dither=Image.Dither.NONE).save(
-        buffer, format="png", optimize=True
-    )
-    return buffer.getvalue()
-
-
-def as_json(asked: Sequence[Chapter], found: Mapping[str, Outcome]) -> dict[str, object]:
-    """All verdicts as one object; a number that does not exist is ``None``."""
-    claims = []
-    for chapter in asked:
-        for name, claim in chapter.claims.items():
-            outcome = found[name]
-            verdict = outcome.verdict
-            claims.append(
-                {
-                    "id": name,
-                    "chapter": chapter.number,
-                    "section": claim.section,
-                    "figures": claim.figures,
-                    "claim": claim.text,
-                    "status": verdict.status,
-                    "measured": {key: _plain(value) for key, value in verdict.measured.items()},
-                    "reason": verdict.reason,
-                    "table": None
-                    if verdict.table is None
-                    else [list(verdict.table.headings), *map(list, verdict.table.rows)],
-                    "not_complete": dict(outcome.endings),
-                    "runs": {key: setup.command() for key, setup in claim.runs.items()},
-                }
-            )
-    counted = count(found.values())
-    return {"version": __version__, "count": counted, "claims": claims}
-
-
-def _plain(value: float | str | None) -> float | str | None:
-    if isinstance(value, float | int):
-        return float(value) if math.isfinite(value) else None
-    return value
-
-
-def count(outcomes: Iterable[Outcome]) -> dict[str, int]:
-    """How many claims have which status."""
-    counter = Counter(one.verdict.status for one in outcomes)
-    return {status: counter[status] for status in STATUSES}
 
 
 def write_page(
@@ -316,7 +112,7 @@ def _page(asked: Sequence[Chapter], found: Mapping[str, Outcome], seconds: float
     )
 
 
-def _kind(source: Source[Any]) -> str:
+def _kind(source: Evidence[Any]) -> str:
     return "run" if isinstance(source, Setup) else "trial"
 
 

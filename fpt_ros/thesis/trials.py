@@ -68,7 +68,7 @@ class Scores:
 
 @dataclass(frozen=True)
 class Trial:
-    """A method on a signal, for all ``seeds``; one of a claim's :class:`Source`."""
+    """A method on a signal, for all ``seeds``; one of a claim's :class:`Evidence`."""
 
     noisy: Noisy
     method: str = DEFAULT

@@ -42,7 +42,8 @@ def test_numbers_of_a_run_are_those_of_plain_numpy(late_and_noisy):
     whole, found = late_and_noisy, summary(late_and_noisy)
     desired, measured = whole.topics["desired"], whole.topics["joint_states"]
     plant = PlantSimulator(whole.parameters["plant_simulator"])
-    noise = 1e-4 * np.reshape(plant.noise(), (-1, 2 * len(plant.coordinates)))
+    generator = np.random.default_rng(plant.values["seed"])
+    noise = 1e-4 * generator.standard_normal((plant.cycles, 2 * len(plant.coordinates)))
     for name in ("q3", "q2"):
         at = plant.coordinates.index(name)
         position = measured.column("position", name) - noise[:, at]

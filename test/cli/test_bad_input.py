@@ -1,7 +1,7 @@
 """Bad input: one line that says what is wrong and what is valid, status 2, nothing left behind."""
 
 import pytest
-from command import fpt
+from command import forked_fpt, fpt
 
 CASES = [
     (["simulate", "tor"], "no experiment 'tor': there are cart_beam_hamper, "),
@@ -53,7 +53,7 @@ CASES = [
 
 @pytest.mark.parametrize(("arguments", "complaint"), CASES, ids=lambda c: " ".join(c)[:50])
 def test_one_line_and_status_2(tmp_path, arguments, complaint):
-    done = fpt(*arguments, cwd=tmp_path)
+    done = forked_fpt(*arguments, cwd=tmp_path)
     assert done.returncode == 2, done.stderr
     assert complaint in done.stderr
     assert len(done.stderr.strip().splitlines()) == 1
@@ -81,7 +81,7 @@ def test_existing_directory_is_not_touched(tmp_path, command):
 )
 def test_bad_parameter_files(tmp_path, text, complaint):
     (tmp_path / "my.yaml").write_text(text)
-    done = fpt("simulate", "my.yaml", cwd=tmp_path)
+    done = forked_fpt("simulate", "my.yaml", cwd=tmp_path)
     assert done.returncode == 2
     assert complaint in done.stderr
     assert len(done.stderr.strip().splitlines()) == 1

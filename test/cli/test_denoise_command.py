@@ -4,7 +4,8 @@ import json
 
 import numpy as np
 import pytest
-from command import fpt, fpt_json
+from command import forked_fpt as fpt
+from command import forked_fpt_json as fpt_json
 
 
 @pytest.fixture

@@ -11,7 +11,7 @@ import numpy as np
 import pandas
 import psutil
 import pytest
-from command import BIN, fpt, fpt_json
+from command import BIN, forked_fpt, forked_fpt_json, fpt, fpt_json
 
 GRID = ("--grid", "fpt_deformer.A=-0.1:-4:{}")
 
@@ -96,7 +96,9 @@ def test_tables_and_maps_and_the_same_bits_as_simulate(tmp_path):
     for number in (1, 4):
         row = table.iloc[number]
         own = [f"{name}={float(row[name])!r}" for name in table.columns[1:3]]
-        done = fpt("simulate", "tora", "--duration", 6, "--json", "--set", own[0], "--set", own[1])
+        done = forked_fpt(
+            "simulate", "tora", "--duration", 6, "--json", "--set", own[0], "--set", own[1]
+        )
         assert done.returncode == (1 if row["outcome"] == "diverged" else 0)
         one = json.loads(done.stdout)
         assert row["reason"] == one["reason"]
@@ -146,7 +148,7 @@ def test_onset_and_basin(tmp_path):
     ids=lambda c: " ".join(c)[10:60] if isinstance(c, list) else "",
 )
 def test_bad_input_is_one_line(tmp_path, arguments, complaint):
-    done = fpt(*arguments, cwd=tmp_path)
+    done = forked_fpt(*arguments, cwd=tmp_path)
     assert done.returncode == 2, done.stderr
     assert complaint in done.stderr
     assert len(done.stderr.strip().splitlines()) == 1
@@ -175,10 +177,10 @@ def test_tune_tells_how_its_overlay_is_used(tmp_path):
     assert settled["after"] < settled["before"]
     program, *words = shlex.split(result["use"])
     assert (program, words) == ("fpt", ["simulate", "tora", "--variant", "tora.tuned.yaml"])
-    one = fpt_json(*words, "--record", "bag", cwd=tmp_path)
+    one = forked_fpt_json(*words, "--record", "bag", cwd=tmp_path)
     assert one["variant"] == "tora.tuned"
     assert one["tracking"]["q3"]["rms_settled"] == settled["after"]
-    there = fpt_json("info", "bag", cwd=tmp_path)
+    there = forked_fpt_json("info", "bag", cwd=tmp_path)
     assert (there["experiment"], there["variant"]) == ("tora", "tora.tuned")
     found = result["parameters"]["fpt_deformer.A"]["after"]
     assert there["parameters"]["fpt_deformer"]["A"] == found
@@ -194,7 +196,7 @@ def test_a_sweep_over_an_overlay_file(tmp_path):
     assert result["variant"] == "soft"
     table = pandas.read_csv(tmp_path / "tora-sweep" / "runs.csv")
     words = ["--set", "fpt_deformer.A=-2", "--duration", 5]
-    one = fpt_json("simulate", "tora", "--variant", overlay, *words)
+    one = forked_fpt_json("simulate", "tora", "--variant", overlay, *words)
     assert table["rms_settled.q3"][1] == one["tracking"]["q3"]["rms_settled"]
-    plain = fpt_json("simulate", "tora", *words)
+    plain = forked_fpt_json("simulate", "tora", *words)
     assert one["tracking"]["q3"]["rms_settled"] != plain["tracking"]["q3"]["rms_settled"]

@@ -4,22 +4,17 @@ import math
 
 import numpy as np
 import pytest
-from command import fpt, fpt_json
+from limits_of import bounds
 
 from fpt_ros.engine.engine import Engine
 from fpt_ros.errors import BadInput
-from fpt_ros.experiments.experiment import available, load
-from fpt_ros.gain import contraction as gain
+from fpt_ros.experiments.experiment import load
+from fpt_ros.gain import contraction
 from fpt_ros.gain import motion as gain_motion
 from fpt_ros.gain.map import scalar_map
 
 F_SLOPE = 0.6327308229685502  # F'(x*), chapter3_4.md, 0.1
 STEP = 0.7130913716914226 + 0.1130913716914226  # x* - x1
-
-
-def bounds(name, variant="adaptive", **settings):
-    changes = [f"{key.replace('__', '.')}={value}" for key, value in settings.items()]
-    return gain.bounds(load(name, variant, changes))
 
 
 def test_siso_classes_are_those_of_the_chapter_file():
@@ -150,9 +145,6 @@ def test_sign_of_the_gain_follows_the_response():
     assert both.sign == 0
     assert not both.contracts(-0.1)
     assert not both.contracts(0.1)
-    assert "no fpt_deformer.A contracts" in gain.warning(
-        load("mimo_affine", settings=["plant_simulator.exact.m22=-2.0"])
-    )
     nothing = bounds("siso_affine", plant_simulator__exact__alpha=0.0)
     assert nothing.sign == 0
 
@@ -178,97 +170,11 @@ def test_two_cycles_return_and_their_multiplier_is_that_of_two_steps():
         assert changed == pytest.approx(cycle.multiplier, rel=1e-3, abs=1e-4)
 
 
-def steps_of(name, A, **settings):
-    """The deformed responses of the last cycles of a run, its response errors' signs included."""
-    changes = [f"{key.replace('__', '.')}={value}" for key, value in settings.items()]
-    experiment = load(name, settings=[f"fpt_deformer.A={A}", *changes])
-    engine = Engine(experiment.loop(), compile_laws=False)
-    engine.run()
-    return engine.topics()["command"].vectors["accelerations"]
-
-
-@pytest.mark.parametrize(("name", "duration"), [("siso_affine", 3000.0), ("mimo_affine", 3000.0)])
-def test_runs_change_their_behaviour_at_the_bounds(name, duration):
-    found = bounds(name)
-    length = {"plant_simulator__duration": duration}
-    if name == "siso_affine":
-        length["fpt_deformer__initial_response"] = "[-3.001]"
-    else:
-        length["fpt_deformer__initial_response"] = "[0.7277, -1.5331]"
-    monotone = np.diff(steps_of(name, found.sign * 0.97 * found.monotone, **length)[:12, 0])
-    assert (monotone[1:-1] * monotone[2:] > -1e-24).all()
-    precursor = np.diff(steps_of(name, found.sign * 0.97 * found.linear_limit, **length)[:, 0])
-    assert (precursor[10:30] * precursor[11:31] < 0).all()  # it alternates ...
-    assert abs(precursor[-1]) < 1e-9  # ... and converges
-    chatters = np.diff(steps_of(name, found.sign * 1.03 * found.linear_limit, **length)[:, 0])
-    assert abs(chatters[-1]) > 1e-2  # for ever
-    assert (chatters[-20:-1] * chatters[-19:] < 0).all()
-
-
-def test_from_the_hard_onset_on_a_large_error_ends_in_a_two_cycle():
-    # M diagonal: along an axis the norm form is the scalar map itself
-    found = bounds("mimo_affine", **DIAGONAL)
-    assert found.hard_onset == pytest.approx(2.0 / 5.0, rel=1e-7)
-    # an error of half of what the largest step changes
-    large = {**DIAGONAL, "fpt_deformer__initial_response": f"[{0.5 * STEP}, 0.0]"}
-    small = {**DIAGONAL, "fpt_deformer__initial_response": f"[{0.3 * STEP}, 0.0]"}
-    below, above = -0.97 * found.hard_onset, -1.03 * found.hard_onset
-    for A, start, ends in ((below, large, 0.0), (above, large, STEP), (above, small, 0.0)):
-        steps = np.diff(steps_of("mimo_affine", A, **start), axis=0)
-        assert np.linalg.norm(steps[-1]) == pytest.approx(ends, abs=1e-6)
-
-
-DIAGONAL = {
-    "plant_simulator__exact__m11": 5.0,
-    "plant_simulator__exact__m12": 0.0,
-    "plant_simulator__exact__m21": 0.0,
-    "plant_simulator__exact__m22": 1.0,
-    "plant_simulator__exact__c1": 0.0,
-    "plant_simulator__exact__c2": 0.0,
-    "plant_simulator__initial_position": "[2.0, 0.0]",
-    "trajectory_generator__amplitude": "[0.0, 0.0]",
-}
-
-OUTSIDE = {
-    ("kapitza", "listing"): "outside the range (-5.071, 0)",
-    ("kapitza", "with_gravity"): "outside the range (-5.071, 0)",
-    ("kapitza", "offset"): "in a part of the nominal motion",
-    ("siso_affine", "chaos"): "in chaos",
-    ("mimo_affine", "printed_sign"): "runs away",
-    ("tora", "strong"): "may chatter",
-    ("tora", "chatter"): "may chatter",
-}
-
-
-def test_only_those_warn_whose_gain_is_outside():
-    for name, variants in available().items():
-        for variant in variants:
-            text = gain.warning(load(name, variant))
-            if (name, variant) in OUTSIDE:
-                assert OUTSIDE[name, variant] in text
-                assert f"fpt gain {name} --variant {variant}" in text
-                assert "\n" not in text
-            else:
-                assert text == "", (name, variant)
-
-
-def test_warning_names_the_range_and_the_hard_onset():
-    assert gain.warning(load("tora", settings=["fpt_deformer.A=-5"])) == (
-        "fpt_deformer.A = -5 is outside the range (-4.658, 0) in which the iteration contracts: it "
-        "chatters in a two-cycle (a hard onset of chattering at -2.947; fpt gain tora)"
-    )
-    assert "runs away" in gain.warning(load("tora", settings=["fpt_deformer.A=0.1"]))
-
-
-def test_the_guard_of_the_precursor_needs_no_warning():
-    assert gain.warning(load("tora", "guarded")) == ""
-
-
 @pytest.mark.parametrize("name", ["vdp_aidc", "tora"])
 def test_without_transformation_there_is_no_gain(name):
     variant = "adaptive" if name == "vdp_aidc" else "nonadaptive"
     with pytest.raises(BadInput, match=f"^{name} {variant} has no fixed point transformation"):
-        gain.bounds(load(name, variant))
+        contraction.bounds(load(name, variant))
 
 
 def test_nominal_and_driven_motion_agree_and_the_driven_one_knows_q1():
@@ -282,56 +188,4 @@ def test_nominal_and_driven_motion_agree_and_the_driven_one_knows_q1():
     s2 = np.array([math.sin(point.q[0]) ** 2 for point in points])
     assert course.eigenvalues[:, 1] == pytest.approx((20 + 10 * s2) / (30 + 20 * s2), rel=1e-7)
     assert course.eigenvalues[:, 0] == pytest.approx(np.full(len(s2), 0.25), rel=1e-7)
-    assert gain.bounds(experiment, points).linear_limit == pytest.approx(4.6575, rel=1e-3)
-
-
-def test_command(tmp_path):
-    picture = tmp_path / "gain.svg"
-    result = fpt_json("gain", "siso_affine", "--plot", picture)
-    assert result["range"] == pytest.approx([-3.1609018044, 0.0])
-    assert result["behaviour"] == "monotone"
-    assert result["contracts"] is True
-    assert [row["behaviour"] for row in result["behaviours"]] == [
-        "runs away",
-        "monotone",
-        "precursor oscillation",
-        "two-cycle",
-        "period doubling",
-        "chaos",
-        "leaves the domain",
-    ]
-    assert result["run"]["complete"] is True
-    assert picture.read_text().lstrip().startswith("<?xml")
-    done = fpt("gain", "mimo_affine", "--out", tmp_path / "new")
-    assert done.returncode == 0, done.stderr
-    assert "contracts for A in (-0.6321492, 0)" in done.stdout
-    assert (tmp_path / "new" / "gain.png").read_bytes()[:4] == b"\x89PNG"
-    assert {path.name for path in (tmp_path / "new").iterdir()} == {
-        "gain.png",
-        "gain.svg",
-        "gain.json",
-    }
-
-
-@pytest.mark.parametrize(
-    ("arguments", "complaint"),
-    [
-        (["tora", "--variant", "nonadaptive"], "has no fixed point transformation"),
-        (["tora", "--plot", "x.gif"], "it takes a name that ends with .png or .svg"),
-        (["siso_affine", "--plot", "/proc/x.png"], "cannot write /proc/x.png"),
-    ],
-)
-def test_bad_input_is_one_line(arguments, complaint):
-    done = fpt("gain", *arguments)
-    assert done.returncode == 2
-    assert complaint in done.stderr
-    assert len(done.stderr.strip().splitlines()) == 1
-    assert done.stdout == ""
-
-
-def test_simulate_warns_on_standard_error_only():
-    done = fpt("simulate", "siso_affine", "--variant", "chaos", "--duration", 200, "--json")
-    assert done.returncode == 0, done.stderr
-    assert done.stderr.count("fpt: warning: fpt_deformer.A = -6 is outside the range") == 1
-    assert "warning" not in done.stdout
-    assert "warning" not in fpt("simulate", "siso_affine", "--duration", 200).stderr
+    assert contraction.bounds(experiment, points).linear_limit == pytest.approx(4.6575, rel=1e-3)

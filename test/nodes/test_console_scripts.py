@@ -4,7 +4,7 @@ import subprocess
 from pathlib import Path
 
 import pytest
-from command import BIN, fpt_json
+from command import BIN, forked_fpt_json
 
 from fpt_ros.bags.reader import read_run
 from fpt_ros.experiments.locate import config_directory
@@ -40,8 +40,8 @@ def test_five_console_scripts_and_a_recorder(tmp_path, namespace):
         for process in (*others, recorder):
             process.communicate(timeout=20)
     assert [process.returncode for process in (*others, recorder)] == [0] * 5
-    assert fpt_json("info", bag)["topics"][f"{namespace}/command"]["messages"] == 1000
-    fpt_json("simulate", "tora", "--duration", 1, "--record", tmp_path / "engine")
+    assert forked_fpt_json("info", bag)["topics"][f"{namespace}/command"]["messages"] == 1000
+    forked_fpt_json("simulate", "tora", "--duration", 1, "--record", tmp_path / "engine")
     ours, theirs = read_run(tmp_path / "engine"), read_run(bag)
     a, b = ours.topics["command"], theirs.topics["command"]
     assert a.vectors["effort"].tobytes() == b.vectors["effort"].tobytes()

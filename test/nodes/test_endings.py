@@ -12,7 +12,7 @@ from watcher import watcher
 
 from fpt_ros.bags.reader import read_run
 
-WITHIN = 3.0
+WITHIN = 20.0
 LONG = 1000
 
 

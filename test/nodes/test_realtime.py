@@ -7,16 +7,17 @@ from fpt_ros.bags.reader import read_run
 
 
 def test_cycles_follow_the_wall_clock(tmp_path):
+    """Without deformation: with it TORA is lost at steps of 5 ms, in lockstep too."""
     bag = tmp_path / "bag"
     result = fpt_json(
-        "run", "tora", "--variant", "nonadaptive", "--realtime", "--duration", 6, "--record", bag,
+        "run", "tora", "--variant", "nonadaptive", "--realtime", "--duration", 3, "--record", bag,
         "--set", "plant_simulator.dt=0.005",
     )  # fmt: skip
     assert result["complete"] is True, result["reason"]
-    assert result["wall_time"] >= 5.9
+    assert result["wall_time"] >= 2.9
     run = read_run(bag)
     stamps = run.topics["joint_states"].stamps
-    assert len(stamps) == 1200
+    assert len(stamps) == 600
     assert set(stamps[1:] - stamps[:-1]) == {5_000_000}
     assert stamps[0] > 1_700_000_000 * 10**9
     reports = [
@@ -28,9 +29,9 @@ def test_cycles_follow_the_wall_clock(tmp_path):
     assert any("latency p99 [ms]" in report for report in reports)
     told = run.latency
     assert told is not None
-    assert told.cycles == 1200  # the last report comes with the last cycle
-    assert told.total + told.missed >= 1199  # all but the first came in time, late or never
-    assert told.total <= 1199
+    assert told.cycles == 600  # the last report comes with the last cycle
+    assert told.total + told.missed >= 599  # all but the first came in time, late or never
+    assert told.total <= 599
     largest = max(float(r["latency max [ms]"]) for r in reports if "latency max [ms]" in r)
     assert 1e3 * told.largest == largest
     assert result["real_time"]["missed_deadlines"] == told.missed

@@ -8,7 +8,7 @@ from fpt_ros.experiments.experiment import load
 from fpt_ros.sweep import job as jobs
 from fpt_ros.sweep.definition import define
 from fpt_ros.sweep.executor import keep_memory
-from fpt_ros.sweep.ground import experiments_of
+from fpt_ros.sweep.point_experiments import experiments_of
 from fpt_ros.sweep.run_one import run_chunk
 
 

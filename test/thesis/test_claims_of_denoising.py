@@ -2,13 +2,15 @@
 
 import numpy as np
 import pytest
+from claims_of_the_thesis import CLAIMS as ALL
+from claims_of_the_thesis import judged, performed
 
-from fpt_ros.thesis.chapter5 import THESIS
-from fpt_ros.thesis.claim import NO, ONLY_IF, YES, chapters
+from fpt_ros.thesis.chapter5.s5_1_3_table_5_1 import THESIS
+from fpt_ros.thesis.claim import NO, ONLY_IF, YES
 from fpt_ros.thesis.commands import commands
 from fpt_ros.thesis.trials import Scores
 
-CLAIMS = {name: claim for n in (5, 6, 7) for name, claim in chapters()[n].claims.items()}
+CLAIMS = {name: claim for name, claim in ALL.items() if name[0] in "567"}
 
 
 def scores(snr=10.0, rmse=0.1, seconds=0.001):
@@ -23,14 +25,12 @@ def scores(snr=10.0, rmse=0.1, seconds=0.001):
      ("6.1b", YES), ("6.2.1a", NO), ("6.2.2a", ONLY_IF), ("6.2.2b", ONLY_IF)],
 )  # fmt: skip
 def test_verdicts(name, status):
-    claim = CLAIMS[name]
-    assert claim.judge(claim.perform()).status == status
+    assert judged(name).status == status
 
 
 def test_rules_as_printed_lose_what_the_chapter_file_says():
     """10 other seeds there: 4.3 against 13.6 dB universal, 0.3 against 8.3 SURE."""
-    claim = CLAIMS["5.1a"]
-    found = claim.judge(claim.perform()).measured
+    found = judged("5.1a").measured
     assert found["universal (5.1): as printed [dB]"] == pytest.approx(4.3, abs=1.0)
     assert found["universal (5.1): corrected [dB]"] == pytest.approx(13.6, abs=0.3)
     assert found["SureShrink (5.2): as printed [dB]"] == pytest.approx(0.3, abs=0.3)
@@ -41,7 +41,7 @@ def test_table_51_of_the_thesis():
     """The chapter file: 22.4, 3.8 to 4.1, 5.3 to 5.6, 3.7 to 4.2 dB at rho = 0.9."""
     claim = CLAIMS["5.1.3a"]
     runs = {
-        key: trial.perform(key) for key, trial in claim.runs.items() if key.split(",")[0] in THESIS
+        key: performed(trial) for key, trial in claim.runs.items() if key.split(",")[0] in THESIS
     }
     found = {key: one.mean("snr") for key, one in runs.items()}
     assert found["improved, 0.9"] == pytest.approx(22.4, abs=0.3)
@@ -83,7 +83,7 @@ def test_commands_name_every_signal_and_method(name):
 def test_noise_loses_the_raw_loop_and_not_the_synchronised_one():
     claim = CLAIMS["7a"]
     wanted = [key for key in claim.runs if key.endswith(("0.0001", ", 0"))]
-    runs = {key: claim.runs[key].perform(key) for key in wanted}
+    runs = {key: performed(claim.runs[key]) for key in wanted}
     late = {key: runs.get(key, runs[f"{key.rpartition(',')[0]}, 0.0001"]) for key in claim.runs}
     verdict = claim.judge(late)
     assert verdict.status == YES

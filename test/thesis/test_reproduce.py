@@ -5,15 +5,15 @@ import shlex
 import signal
 
 import psutil
-from command import fpt, start_fpt
+from command import forked_fpt, start_fpt
 
-from fpt_ros.thesis.claim import chapters
+from fpt_ros.thesis.chapters import chapters
 
 
 def test_a_command_of_a_claim_repeats_its_run():
     claims = [claim for chapter in chapters().values() for claim in chapter.claims.values()]
     setup = next(one for claim in claims for one in claim.runs.values() if one.settings)
-    done = fpt(*shlex.split(setup.command())[1:], "--json")
+    done = forked_fpt(*shlex.split(setup.command())[1:], "--json")
     assert done.returncode in (0, 1), done.stderr
     assert json.loads(done.stdout)["experiment"] == setup.name
 

@@ -6,18 +6,21 @@ import numpy as np
 import pytest
 from filter_runs import noise, run, two_sines
 
-from fpt_ros.denoising.streaming import Update
+from fpt_ros.denoising.streaming import FILTERS, Update
 from fpt_ros.denoising.streaming.adaptive_savgol import ADAPTIVE_SAVGOL
 from fpt_ros.denoising.streaming.kalman_bank import KALMAN_BANK
 from fpt_ros.denoising.streaming.savgol import SAVGOL
 from fpt_ros.denoising.streaming.wavelet import WAVELET
 from fpt_ros.engine import compiled
 
+PEERS = ("alpha_beta_gamma", "butterworth", "high_gain", "levant", "one_euro")
+
 LAWS = {
     "savgol": (SAVGOL, {"window": 41, "degree": 3}),
     "adaptive_savgol": (ADAPTIVE_SAVGOL, {"windows": [21.0, 41.0, 71.0], "degrees": [2, 3, 5]}),
     "kalman_bank": (KALMAN_BANK, {"settling": 0.1}),
     "wavelet": (WAVELET, {"window": 64, "level": 2, "fit": 31}),
+    **{name: (FILTERS[name], {}) for name in PEERS},
 }
 
 
