@@ -22,7 +22,11 @@ myst_heading_anchors = 3
 autodoc_typehints_format = "short"
 napoleon_use_ivar = True  # fields are listed once
 suppress_warnings = ["ref.python"]  # a field's name that several records have
-nitpick_ignore_regex = [("py:class", ".*"), ("py:obj", ".*")]  # types of other libraries
+nitpick_ignore_regex = [  # of other libraries
+    ("py:class", ".*"),
+    ("py:obj", ".*"),
+    ("py:exc", r"csv\..*"),
+]
 
 html_theme = "furo"
 html_title = f"fpt_ros {release}"

@@ -53,7 +53,7 @@ def test_colcon_build(tmp_path):
     command = f"{prefix}/lib/fpt_ros/fpt simulate tora --duration 1 --json"
     run = subprocess.run(
         ["bash", "-c", f". {tmp_path}/install/setup.bash && {command}"],
-        cwd=tmp_path, env=environment, capture_output=True, text=True, timeout=60, check=False,
+        cwd=tmp_path, env=environment, capture_output=True, text=True, timeout=240, check=False,
     )  # fmt: skip
     assert run.returncode == 0, run.stderr
     assert '"cycles": 1000' in run.stdout
