@@ -165,7 +165,7 @@ def _check_mcap(path: Path, data: memoryview) -> None:
     """It begins as an MCAP file, but for some damaged bytes."""
     begin = bytes(data[: len(MAGIC)])
     if sum(a == b for a, b in zip(begin, MAGIC, strict=False)) < len(MAGIC) - 2:
-        if data[:12] == b"#ROSBAG V2.0":
+        if bytes(data[:12]) == b"#ROSBAG V2.0":
             raise BadInput(f"{path} is a bag of ROS 1: rosbags-convert makes a recording of it")
         raise BadInput(
             f"{path} is not an MCAP file: it has to be a recording's directory, or its .mcap or "

@@ -45,7 +45,8 @@ def _label(topic: str, name: str, unit: str) -> str:
 
 def csv(tables: Tables) -> bytes:
     """One table of text."""
-    return joined(tables.tables).to_csv().encode()
+    text: str = joined(tables.tables).to_csv()
+    return text.encode()
 
 
 def parquet(tables: Tables) -> bytes:

@@ -15,7 +15,7 @@ class TopicPart(NamedTuple):
     type: str
     qos: object
     hash: str
-    count: int
+    messages: int
 
 
 class Part(NamedTuple):
@@ -27,9 +27,9 @@ class Part(NamedTuple):
     topics: Mapping[str, TopicPart]
 
     @property
-    def count(self) -> int:
-        """Messages."""
-        return sum(topic.count for topic in self.topics.values())
+    def total(self) -> int:
+        """Messages of all topics."""
+        return sum(topic.messages for topic in self.topics.values())
 
 
 def write_metadata(directory: Path, parts: Sequence[Part], custom: Mapping[str, str]) -> None:
@@ -54,9 +54,9 @@ def _content(parts: Sequence[Part], custom: Mapping[str, str]) -> dict[str, obje
     topics: dict[str, TopicPart] = {}
     for part in parts:
         for topic, about in part.topics.items():
-            counts[topic] += about.count
+            counts[topic] += about.messages
             topics.setdefault(topic, about)
-    filled = [part for part in parts if part.count]
+    filled = [part for part in parts if part.total]
     first = min((part.first for part in filled), default=0)
     last = max((part.last for part in filled), default=0)
     content = {
@@ -80,7 +80,7 @@ def _content(parts: Sequence[Part], custom: Mapping[str, str]) -> dict[str, obje
         "compression_mode": "",
         "relative_file_paths": [part.name for part in parts],
         "files": [
-            {"path": part.name, **_span(part.first, part.last, part.count)} for part in parts
+            {"path": part.name, **_span(part.first, part.last, part.total)} for part in parts
         ],
         "custom_data": dict(custom),
         "ros_distro": "jazzy",

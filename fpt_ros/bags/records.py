@@ -87,10 +87,8 @@ def walk(
             previous = Record(opcode, at, at + HEAD.size, end)
             at = end
             continue
-        # a message's own length may be what has led us here
-        if previous is not None and previous.opcode == MESSAGE and not _may_begin(data, at, size):
-            at = previous.start
-        elif previous is not None and previous.opcode == CHUNK and not is_good(previous):
+        # the record in front may be what has led us here: its own length may be wrong
+        if previous is not None and _misled(data, at, size, previous, is_good):
             at = previous.start
         elif previous is not None:
             yield previous
@@ -102,8 +100,13 @@ def walk(
         yield previous
 
 
-def _may_begin(data: memoryview, at: int, size: int) -> bool:
-    return size - at < HEAD.size or 1 <= data[at] <= DATA_END
+def _misled(
+    data: memoryview, at: int, size: int, previous: Record, is_good: Callable[[Record], bool]
+) -> bool:
+    if previous.opcode == CHUNK:
+        return not is_good(previous)
+    begins = size - at < HEAD.size or 1 <= data[at] <= DATA_END
+    return previous.opcode == MESSAGE and not begins
 
 
 def _end(data: memoryview, at: int, size: int) -> int | None:

@@ -68,7 +68,7 @@ def recover(
             writer.begin()
             for source, (stamp, start, end, _) in block.ordered():
                 writer.message(source, stamp, bytes(block.data[start:end]))
-            written += block.count
+            written += block.total
             progress(written)
         if not written:
             why = "; ".join(bag.missing) or "it has no messages"
@@ -148,7 +148,7 @@ class _Writer:
     def part(self, name: str) -> Part:
         """The file, for metadata.yaml."""
         topics = {
-            source.topic: about._replace(count=self.counts()[source.topic])
+            source.topic: about._replace(messages=self.counts()[source.topic])
             for source, (_, about) in self._topics.items()
         }
         return Part(name, *self._file.span, topics)
