@@ -63,6 +63,6 @@ class Block(NamedTuple):
             yield source, tuple(row)
 
     @property
-    def messages(self) -> int:
-        """How many there are."""
+    def total(self) -> int:
+        """Number of messages."""
         return sum(map(len, self.rows.values()))

@@ -45,13 +45,13 @@ def columns(part: Part) -> Iterator[Column]:
     for leaf in part.layout.leaves:
         if leaf.path not in part.numbers:
             continue
-        if leaf.size is None:
+        if leaf.length is None:
             yield Column(leaf.path, leaf.path, 0, "")
-        elif names and leaf.size == len(names):
+        elif names and leaf.length == len(names):
             for i, name in enumerate(names):
                 yield Column(f"{leaf.path}.{name}", leaf.path, i, name)
         else:
-            for i in range(leaf.size):
+            for i in range(leaf.length):
                 yield Column(f"{leaf.path}[{i}]", leaf.path, i, "")
 
 

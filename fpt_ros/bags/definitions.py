@@ -3,6 +3,7 @@
 from collections.abc import Callable
 from functools import cache
 
+from rosbags.interfaces import Nodetype
 from rosbags.typesys import Stores, get_types_from_idl, get_types_from_msg, get_typestore
 
 from fpt_ros.bags.block import Kind, Source
@@ -32,6 +33,30 @@ def of(source: Source, kind: Kind) -> Definitions:
         raise BadInput(
             f"{source.topic} is written as {kind.encoding}: topics written as cdr and json are read"
         )
+    known = _known(source, kind, name)
+    lacking = _lacking(name, known)
+    if lacking:
+        raise BadInput(f"{source.topic}: the recording does not say what a {lacking} is")
+    return known
+
+
+def _lacking(name: str, known: Definitions) -> str:
+    """A type that is needed and not known; empty: none."""
+    seen, open = set[str](), [name]
+    while open:
+        type = open.pop()
+        if type not in known:
+            return type or "message without a type"
+        seen.add(type)
+        for _, (kind, about) in known[type][1]:
+            if kind in (Nodetype.ARRAY, Nodetype.SEQUENCE):
+                kind, about = about[0]
+            if kind == Nodetype.NAME and about not in seen:
+                open.append(about)
+    return ""
+
+
+def _known(source: Source, kind: Kind, name: str) -> Definitions:
     known = _jazzy()
     if kind.definition and kind.form in _PARSERS:
         try:
@@ -42,11 +67,6 @@ def of(source: Source, kind: Kind) -> Definitions:
                 raise BadInput(
                     f"{source.topic}: the definition of {name} cannot be read"
                 ) from error
-    if name not in known:
-        raise BadInput(
-            f"{source.topic}: the recording does not say what a {name or 'message without a type'} "
-            "is"
-        )
     return known
 
 

@@ -31,12 +31,12 @@ class Malformed(ValueError):
 
 
 class Leaf(NamedTuple):
-    """Numbers: ``size`` of them in a row from byte ``at`` on; None: one that is no array."""
+    """Numbers: ``length`` of them in a row from byte ``at`` on; None: one that is no array."""
 
     path: str
     at: int
     dtype: str
-    size: int | None
+    length: int | None
     is_bool: bool
 
 
@@ -70,7 +70,7 @@ class Layout:
 
     def numbers(self, messages: Bytes, leaf: Leaf) -> NDArray[Any]:
         """(n, count) numbers of messages (n, size); of a single number (n, 1)."""
-        width = (leaf.size if leaf.size is not None else 1) * int(leaf.dtype[-1])
+        width = (leaf.length if leaf.length is not None else 1) * int(leaf.dtype[-1])
         part = np.ascontiguousarray(messages[:, leaf.at : leaf.at + width])
         return part.view(leaf.dtype).reshape(len(messages), -1)
 
@@ -118,8 +118,7 @@ class _Walk:
         elif kind == Nodetype.NAME:
             self.fields(about, path)
         elif kind == Nodetype.ARRAY:
-            element, size = about
-            self._elements(element, size, path)
+            self._elements(about[0], about[1], path)
         else:
             self._elements(about[0], self._word(), path)
 

@@ -34,7 +34,7 @@ def series(topic: Topic, reading: Reading) -> tuple[Series, int]:
     for part, own in usable:
         used[part.at] = True
         stamps[part.at] = _stamps(part)
-        columns = np.array([places[name] for name in own], dtype=np.intp)
+        columns = np.array([places[name] for name in own], dtype=np.int64)
         for key, path in zip(topic.vectors, _paths(topic), strict=True):
             vectors[key][np.ix_(part.at, columns)] = part.numbers[path]
     if not used.all():

@@ -27,8 +27,8 @@ class Part(NamedTuple):
     topics: Mapping[str, TopicPart]
 
     @property
-    def messages(self) -> int:
-        """How many there are."""
+    def total(self) -> int:
+        """Messages of all topics."""
         return sum(topic.messages for topic in self.topics.values())
 
 
@@ -56,7 +56,7 @@ def _content(parts: Sequence[Part], custom: Mapping[str, str]) -> dict[str, obje
         for topic, about in part.topics.items():
             counts[topic] += about.messages
             topics.setdefault(topic, about)
-    filled = [part for part in parts if part.messages]
+    filled = [part for part in parts if part.total]
     first = min((part.first for part in filled), default=0)
     last = max((part.last for part in filled), default=0)
     content = {
@@ -80,7 +80,7 @@ def _content(parts: Sequence[Part], custom: Mapping[str, str]) -> dict[str, obje
         "compression_mode": "",
         "relative_file_paths": [part.name for part in parts],
         "files": [
-            {"path": part.name, **_span(part.first, part.last, part.messages)} for part in parts
+            {"path": part.name, **_span(part.first, part.last, part.total)} for part in parts
         ],
         "custom_data": dict(custom),
         "ros_distro": "jazzy",

@@ -154,7 +154,9 @@ class _Gatherer:
         fits = known.fits(messages)
         if fits.any():
             own = messages if fits.all() else messages[fits]
-            numbers = [known.numbers(own, leaf) for leaf in known.leaves if (leaf.size or 1) < MANY]
+            numbers = [
+                known.numbers(own, leaf) for leaf in known.leaves if (leaf.length or 1) < MANY
+            ]
             self._found[number].append((at[fits], numbers))
         return messages[~fits], at[~fits]
 
@@ -163,7 +165,7 @@ class _Gatherer:
         stamps = np.concatenate(self._stamps) if self._stamps else np.empty(0, dtype=np.int64)
         parts, left_out = [], set()
         for known, found in zip(self._layouts, self._found, strict=True):
-            kept = [leaf for leaf in known.leaves if (leaf.size or 1) < MANY]
+            kept = [leaf for leaf in known.leaves if (leaf.length or 1) < MANY]
             left_out |= {leaf.path for leaf in known.leaves if leaf not in kept}
             columns = zip(*[numbers for _, numbers in found], strict=True)
             parts.append(
@@ -184,8 +186,8 @@ def _rows(data: Bytes, starts: NDArray[np.int64], size: int) -> Bytes:
     if not size or not len(starts):
         return np.empty((len(starts), size), dtype=np.uint8)
     windows = np.lib.stride_tricks.sliding_window_view(data, size)
-    taken: NDArray[np.uint8] = windows[starts]
-    return taken
+    rows: Bytes = windows[starts]
+    return rows
 
 
 def _native(numbers: NDArray[Any], is_bool: bool) -> NDArray[Any]:

@@ -7,7 +7,7 @@ for the next place from which records follow each other again.
 
 import re
 import struct
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from typing import Literal, NamedTuple
 
 MAGIC = b"\x89MCAP0\r\n"
@@ -62,8 +62,15 @@ class Gap(NamedTuple):
     cut: bool
 
 
-def walk(data: memoryview, start: int = len(MAGIC)) -> Iterator[Record | Gap]:
-    """Records and gaps of a file, in order; the magic at the end is a record of opcode 0."""
+def walk(
+    data: memoryview,
+    start: int = len(MAGIC),
+    is_good: Callable[[Record], bool] = lambda record: True,
+) -> Iterator[Record | Gap]:
+    """Records and gaps of a file, in order; the magic at the end is a record of opcode 0.
+
+    ``is_good`` is asked of a chunk behind which there is no record: a bad one may be too short.
+    """
     at, size = start, len(data)
     previous: Record | None = None
     while at < size:
@@ -80,8 +87,8 @@ def walk(data: memoryview, start: int = len(MAGIC)) -> Iterator[Record | Gap]:
             previous = Record(opcode, at, at + HEAD.size, end)
             at = end
             continue
-        # a message's own length may be what has led us here
-        if previous is not None and previous.opcode == MESSAGE and not _may_begin(data, at, size):
+        # the record in front may be what has led us here: its own length may be wrong
+        if previous is not None and _misled(data, at, size, previous, is_good):
             at = previous.start
         elif previous is not None:
             yield previous
@@ -93,8 +100,13 @@ def walk(data: memoryview, start: int = len(MAGIC)) -> Iterator[Record | Gap]:
         yield previous
 
 
-def _may_begin(data: memoryview, at: int, size: int) -> bool:
-    return size - at < HEAD.size or 1 <= data[at] <= DATA_END
+def _misled(
+    data: memoryview, at: int, size: int, previous: Record, is_good: Callable[[Record], bool]
+) -> bool:
+    if previous.opcode == CHUNK:
+        return not is_good(previous)
+    begins = size - at < HEAD.size or 1 <= data[at] <= DATA_END
+    return previous.opcode == MESSAGE and not begins
 
 
 def _end(data: memoryview, at: int, size: int) -> int | None:

@@ -68,7 +68,7 @@ def recover(
             writer.begin()
             for source, (stamp, start, end, _) in block.ordered():
                 writer.message(source, stamp, bytes(block.data[start:end]))
-            written += block.messages
+            written += block.total
             progress(written)
         if not written:
             why = "; ".join(bag.missing) or "it has no messages"

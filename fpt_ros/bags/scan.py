@@ -66,7 +66,7 @@ class Scan:
         self._read_ahead()
         loose: dict[int, list[int]] = {}
         count, ended = 0, False
-        for step in records.walk(data):
+        for step in records.walk(data, is_good=self._is_good):
             if isinstance(step, Gap):
                 yield from self._gap(step)
                 continue
@@ -131,6 +131,13 @@ class Scan:
         row = (stamp, step.at + MESSAGE_HEAD.size, step.end, sequence)
         rows.setdefault(channel, []).extend(row)
         return 1
+
+    def _is_good(self, step: Record) -> bool:
+        try:
+            chunk.unpack(self._data[step.at : step.end])
+        except BadChunk:
+            return False
+        return True
 
     def _chunk(self, step: Record) -> Iterator[Block]:
         body = self._data[step.at : step.end]

@@ -58,12 +58,12 @@ class SqliteScan:
             found: dict[Source, list[tuple[int, int, int, int]]] = {}
             data, at = [], 0
             for id, stamp, raw in some:
-                known = sources.get(id)
-                if known is None or not isinstance(raw, bytes) or not isinstance(stamp, int):
+                if id not in sources or not isinstance(raw, bytes) or not isinstance(stamp, int):
                     self.damage.append(f"{self._name}: a message is not one, and is left out")
                     continue
-                found.setdefault(known, []).append((stamp, at, at + len(raw), numbers[known]))
-                numbers[known] += 1
+                source = sources[id]
+                found.setdefault(source, []).append((stamp, at, at + len(raw), numbers[source]))
+                numbers[source] += 1
                 data.append(raw)
                 at += len(raw)
             yield Block(
