@@ -11,7 +11,7 @@ def latencies(data: bytes, node: str) -> Latencies | None:
     """Latencies of a run as a node reports them; ``None``: the message does not tell.
 
     Args:
-        data: a message of ``/diagnostics``.
+        data: a message of :data:`TOPIC`.
         node: its fully qualified name, without the first ``/``.
 
     Raises:

@@ -192,7 +192,6 @@ def _rows(data: Bytes, starts: NDArray[np.int64], size: int) -> Bytes:
 
 def _native(numbers: NDArray[Any], is_bool: bool) -> NDArray[Any]:
     if is_bool:
-        true: NDArray[Any] = numbers != 0
-        return true
-    native: NDArray[Any] = numbers.astype(numbers.dtype.newbyteorder("="), copy=False)
-    return native
+        truth: NDArray[Any] = numbers != 0
+        return truth
+    return numbers.astype(numbers.dtype.newbyteorder("="), copy=False)

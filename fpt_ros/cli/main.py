@@ -39,7 +39,7 @@ app = typer.Typer(
 )
 
 
-COMMANDS: tuple[tuple[str, Callable[..., None], str], ...] = (
+COMMANDS: tuple[tuple[str, Callable[..., Any], str], ...] = (
     ("list", listing.list_experiments, ""),
     ("simulate", simulate.simulate, ""),
     ("sweep", sweep.sweep, "sweep"),
@@ -58,14 +58,14 @@ COMMANDS: tuple[tuple[str, Callable[..., None], str], ...] = (
 """Name, function, and the extra of the installation without which it cannot work."""
 
 
-def _checked(function: Callable[..., None], extra: str) -> Callable[..., None]:
+def _checked(function: Callable[..., Any], extra: str) -> Callable[..., Any]:
     """The same command, which ends before it begins if its extra is not installed."""
 
     @wraps(function)
-    def command(*arguments: Any, **options: Any) -> None:
+    def command(*arguments: Any, **options: Any) -> Any:
         if extra:
             extras.need(extra)
-        function(*arguments, **options)
+        return function(*arguments, **options)
 
     return command
 

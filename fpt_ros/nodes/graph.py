@@ -30,6 +30,9 @@ STALL = 60.0
 GRACE = 1.2
 """Seconds that a process has to end when asked to, before it is killed."""
 
+RECORDER_GRACE = 10.0
+"""The same of the recorder, which has to finish its file."""
+
 LAST_LINES = 12
 PR_SET_PDEATHSIG = 1
 
@@ -163,7 +166,7 @@ class _Graph:
             if failure is not None:
                 os.write(reason_out, str(failure).encode()[:4000])
             if self._recorder is not None:
-                await _end([self._recorder])
+                await _end([self._recorder], RECORDER_GRACE)
             for descriptor in (progress_in, progress_out, reason_in, reason_out):
                 os.close(descriptor)
         if failure is not None:
@@ -253,14 +256,14 @@ async def _read_lines(child: _Child) -> None:
         child.lines.append(line.decode(errors="replace").rstrip())
 
 
-async def _end(children: list[_Child]) -> None:
+async def _end(children: list[_Child], grace: float = GRACE) -> None:
     """Ask processes to end, and kill those that do not."""
     running = [child for child in children if child.process.returncode is None]
     for child in running:
         child.process.terminate()
     ends = [asyncio.create_task(child.ended()) for child in running]
     if ends:
-        _, late = await asyncio.wait(ends, timeout=GRACE)
+        _, late = await asyncio.wait(ends, timeout=grace)
         if late:
             for child in running:
                 if child.process.returncode is None:

@@ -189,8 +189,9 @@ class Recorder(LoopNode):
 
     def _try_to_start(self) -> None:
         if self._snapshot is None:
-            if self._matched():
-                self._snapshot = Snapshot(self, self._loop_nodes())
+            names = self._loop_nodes()
+            if self._matched() and not any("UNKNOWN" in name for name in names):
+                self._snapshot = Snapshot(self, names)
             return
         if not self._snapshot.is_done():
             return

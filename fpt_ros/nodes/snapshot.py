@@ -7,7 +7,7 @@ parameter files do not say.
 from time import monotonic
 from typing import Any
 
-from rcl_interfaces.srv import GetParameters, ListParameters
+from rcl_interfaces.srv import GetParameters, GetParameterTypes, ListParameters
 from rclpy.node import Node
 
 from fpt_ros.bags.changes import value_of
@@ -55,35 +55,45 @@ class Snapshot:
 
 
 class _Asked:
-    """One node: first for the names of its parameters, then for their values."""
+    """One node: for the names of its parameters, which of them are set, and their values."""
 
     def __init__(self, node: Node, name: str) -> None:
         self._node = node
         self._list = node.create_client(ListParameters, f"{name}/list_parameters")
+        self._types = node.create_client(GetParameterTypes, f"{name}/get_parameter_types")
         self._get = node.create_client(GetParameters, f"{name}/get_parameters")
         self._future: Any = None
-        self._names: list[str] | None = None
+        self._names: list[str] = []
 
     def step(self) -> dict[str, Value] | None:
         """Go on; the values when they have come."""
         if self._future is None:
-            if self._list.service_is_ready() and self._get.service_is_ready():
+            if all(each.service_is_ready() for each in (self._list, self._types, self._get)):
                 self._future = self._list.call_async(ListParameters.Request())
             return None
         if not self._future.done():
             return None
         answer = self._future.result()
-        if self._names is None:
+        if isinstance(answer, ListParameters.Response):
             self._names = [n for n in answer.result.names if not n.startswith(OF_ROS)]
+            self._future = self._types.call_async(GetParameterTypes.Request(names=self._names))
+            return None
+        if isinstance(answer, GetParameterTypes.Response):
+            # a node does not tell any value where it is asked for one that is not set
+            pairs = zip(self._names, answer.types, strict=False)
+            self._names = [name for name, kind in pairs if kind in KNOWN]
             self._future = self._get.call_async(GetParameters.Request(names=self._names))
             return None
-        pairs = zip(self._names, answer.values, strict=False)
-        return {name: value_of(value) for name, value in pairs if value.type in KNOWN}
+        return {
+            name: value_of(value)
+            for name, value in zip(self._names, answer.values, strict=False)
+            if value.type in KNOWN
+        }
 
     def close(self) -> None:
         """Ask no more."""
-        self._node.destroy_client(self._list)
-        self._node.destroy_client(self._get)
+        for each in (self._list, self._types, self._get):
+            self._node.destroy_client(each)
 
 
 KNOWN = (1, 2, 3, 4, 6, 7, 8, 9)

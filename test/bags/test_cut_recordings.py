@@ -83,8 +83,10 @@ def test_damaged_chunk(recorded: Recorded, tmp_path: Path) -> None:
     with recorded.file.open("rb") as stream:
         summary = make_reader(stream).get_summary()
     assert summary is not None
-    second = sorted(index.chunk_start_offset for index in summary.chunk_indexes)[1]
-    whole[second + 2000] ^= 0xFF
+    chunks = sorted(summary.chunk_indexes, key=lambda index: index.chunk_start_offset)
+    hit = max(chunks[1:-1], key=lambda index: index.chunk_length)
+    second = hit.chunk_start_offset
+    whole[second + hit.chunk_length // 2] ^= 0xFF
     path = tmp_path / "damaged.mcap"
     path.write_bytes(whole)
     run = reader.read_run(path)

@@ -66,7 +66,7 @@ def test_what_is_not_a_recording(tmp_path: Path) -> None:
     path = tmp_path / "there.mcap"
     refuse(path, "does not exist: it has to be")
     refuse(tmp_path, r"holds no \.mcap file: it has to be")
-    for content in (b"", b"\x89MC", b"some text, not MCAP"):
+    for content in (b"", b"\x89MC", b"some text, not MCAP", b"#ROSBAG V1.2"):
         path.write_bytes(content)
         refuse(path, "is not an MCAP file: it has to be")
     refuse(tmp_path, "is not an MCAP file: it has to be")
@@ -78,7 +78,10 @@ def test_what_is_not_a_recording(tmp_path: Path) -> None:
 def test_recordings_of_something_else(tmp_path: Path) -> None:
     path = tmp_path / "other.mcap"
     foreign(path)
-    refuse(path, "holds no parameters: it has to be a recording of this package")
+    with pytest.raises(BadInput, match="holds no parameters: it has to be a recording of this"):
+        reader.read_run(path)
+    about = reader.info(path)
+    assert (about["messages"], about["complete"], about["parameters"]) == (1, True, {})
     foreign(path, parameters=b"no: [yaml")
     refuse(path, "its parameters.yaml is not YAML")
     foreign(path, parameters=b"\xff\xfe")
@@ -91,7 +94,9 @@ def test_recordings_of_something_else(tmp_path: Path) -> None:
 def test_cut_before_the_parameters(recorded: Recorded, tmp_path: Path) -> None:
     path = tmp_path / "cut.mcap"
     path.write_bytes(recorded.file.read_bytes()[:100])
-    refuse(path, "ends before the parameters: nothing can be read")
+    with pytest.raises(BadInput, match="ends before the parameters: nothing can be read"):
+        reader.read_run(path)
+    assert reader.info(path)["complete"] is False
 
 
 @pytest.mark.parametrize(
