@@ -97,6 +97,7 @@ class Bag:
         if side.is_file():
             aside = Scan(side, memoryview(side.read_bytes()))
             for block in aside.blocks():
+                self.kinds = {**aside.kinds, **self.kinds}  # known before their messages are
                 yield _without(block, aside, scan.sequences)
             self.kinds = {**aside.kinds, **self.kinds}
         own: Counter[str] = Counter()

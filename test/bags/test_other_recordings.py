@@ -72,7 +72,7 @@ def test_what_is_not_a_recording(tmp_path: Path) -> None:
     refuse(tmp_path, "is not an MCAP file: it has to be")
     path.unlink()
     path.mkdir()
-    refuse(tmp_path, "cannot be read: Is a directory")
+    refuse(tmp_path, "cannot be read: it is not a file")
 
 
 def test_recordings_of_something_else(tmp_path: Path) -> None:

@@ -23,7 +23,7 @@ def whole(tmp_path_factory):
 def cut(whole, tmp_path):
     path = tmp_path / "cut.mcap"
     data = (whole / "bag_0.mcap").read_bytes()
-    path.write_bytes(data[: len(data) * 2 // 3])
+    path.write_bytes(data[: len(data) // 2])
     return path
 
 
