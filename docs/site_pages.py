@@ -22,6 +22,7 @@ def setup(sphinx: Any) -> dict[str, bool]:
     """Sphinx calls this once."""
     sphinx.connect("builder-inited", lambda _: write_pages())
     sphinx.connect("autodoc-process-docstring", escape_bars)
+    sphinx.connect("autodoc-process-docstring", keep_sentence, priority=400)  # before napoleon
     sphinx.connect("missing-reference", neighbour)
     return {"parallel_read_safe": True}
 
@@ -34,6 +35,14 @@ def escape_bars(sphinx: Any, kind: str, name: str, of: Any, options: Any, lines:
         )
         for line in lines
     ]
+
+
+def keep_sentence(
+    sphinx: Any, kind: str, name: str, of: Any, options: Any, lines: list[str]
+) -> None:
+    """What stands before a colon in the text of a constant is not its type."""
+    if kind in ("data", "attribute"):
+        lines.insert(0, "")
 
 
 def neighbour(sphinx: Any, environment: Any, node: Any, content: Any) -> Any:

@@ -28,7 +28,7 @@ MODELS = {
 
 
 def model_pair(model: str) -> dict[str, Setup]:
-    """A model of :data:`MODELS` without and with deformation."""
+    """A model of ``MODELS`` without and with deformation."""
     without, with_it = MODELS[model]
     return {"nonadaptive": Setup(SPHERE, without), "adaptive": Setup(SPHERE, with_it)}
 
