@@ -2,6 +2,7 @@
 
 from fpt_ros.cycle.stages import Loop
 from fpt_ros.errors import BadInput
+from fpt_ros.experiments.law_check import check_laws
 from fpt_ros.experiments.workspace import check_workspace
 from fpt_ros.parameters import word
 from fpt_ros.relaxations import RELAXATIONS
@@ -53,6 +54,7 @@ def check_fit(loop: "Loop") -> None:
             f"parameter_tuner.model: {word(loop.tuner.values, 'model')} is not the deformer's, "
             f"{word(loop.deformer.values, 'model')}"
         )
+    check_laws(loop)
     _check_motion(loop)
 
 
