@@ -29,6 +29,7 @@ setup(
         "fpt_ros.analysis": ["*.html.j2", "*.css"],
         "fpt_ros.thesis": ["*.html.j2"],
         "fpt_ros.nodes": ["*.xml"],
+        "fpt_ros.plants.mujoco": ["arms/*.xml"],
     },
     data_files=[
         ("share/ament_index/resource_index/packages", ["resource/fpt_ros"]),
@@ -57,6 +58,7 @@ setup(
     ],
     extras_require={
         "test": ["pytest"],
+        "robots": ["mujoco>=3.3"],
         "cluster": ["dask", "distributed"],
         "peers": ["scikit-image", "statsmodels"],
     },
@@ -74,6 +76,7 @@ setup(
             "kapitza = fpt_ros.plants.kapitza:PLANT",
             "lorenz = fpt_ros.plants.lorenz:PLANT",
             "mimo_affine = fpt_ros.plants.mimo_affine:PLANT",
+            "mujoco = fpt_ros.plants.mujoco.plant:PLANT",
             "siso_affine = fpt_ros.plants.siso_affine:PLANT",
             "spherical_pendulum = fpt_ros.plants.spherical_pendulum:PLANT",
             "swing = fpt_ros.plants.swing:PLANT",
@@ -91,6 +94,7 @@ setup(
             "kapitza_with_gravity = fpt_ros.plants.kapitza:WITH_GRAVITY",
             "lorenz = fpt_ros.plants.lorenz:MODEL",
             "mimo_affine = fpt_ros.plants.mimo_affine:MODEL",
+            "mujoco = fpt_ros.plants.mujoco.model:MODEL",
             "siso_affine = fpt_ros.plants.siso_affine:MODEL",
             "spherical_affine = fpt_ros.plants.spherical_pendulum:AFFINE_MODEL",
             "spherical_fully_fuzzy = fpt_ros.plants.spherical_pendulum:FULLY_FUZZY",
@@ -101,6 +105,7 @@ setup(
             "van_der_pol_second_order = fpt_ros.plants.van_der_pol_second_order:MODEL",
         ],
         "fpt_ros.trajectories": [
+            "blended_sines = fpt_ros.trajectories.blended_sines:BLENDED_SINES",
             "constant = fpt_ros.trajectories.constant:CONSTANT",
             "cosines = fpt_ros.trajectories.cosines:COSINES",
             "fitzhugh_nagumo = fpt_ros.trajectories.fitzhugh_nagumo:FITZHUGH_NAGUMO",
