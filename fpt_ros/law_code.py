@@ -78,7 +78,9 @@ def _is_number(thing: Any) -> bool:
 
 
 def _module_of(thing: Any) -> str:
-    return getattr(thing, "__module__", None) or type(thing).__module__ or ""
+    owner = getattr(thing, "__self__", None)  # of a built-in: its module, or its object
+    named = getattr(thing, "__module__", None) or getattr(owner, "__name__", None)
+    return str(named or type(thing if owner is None else owner).__module__)
 
 
 class _Reader:

@@ -9,6 +9,7 @@ the user's cache; the folder's name tells the sources it was made of.
 
 import hashlib
 import os
+import re
 import shutil
 import warnings
 from collections.abc import Callable
@@ -18,7 +19,8 @@ from time import time
 from types import FunctionType
 from typing import Any, cast
 
-from fpt_ros import laws
+from fpt_ros import law_code, laws
+from fpt_ros.engine import foreign_calls
 from fpt_ros.engine.types import arguments_of, signature_of, type_of
 
 _PACKAGE = Path(__file__).parents[1]
@@ -97,25 +99,59 @@ def _register(function: Callable[..., Any]) -> None:
 def _machine_code(function: Callable[..., Any], signature: Any) -> Any:
     for helper in laws.HELPERS:  # laws loaded meanwhile bring new ones
         _register(helper)
+    foreign_calls.register()
     return _numba().njit(signature, cache=True, **OPTIONS)(function)
+
+
+class NotCompiled(Exception):
+    """A law that numba cannot compile; says in a few words why, with file and line."""
+
+    def __init__(self, why: str) -> None:
+        super().__init__(why)
+        self.why = why
 
 
 @cache
 def law(function: Any, kind: Any) -> Any:
-    """A law of a kind as machine code, to be given to a compiled loop."""
-    if function.__closure__:
-        function = _told_apart(function)
-    return _machine_code(function, signature_of(kind))
+    """A law of a kind as machine code, to be given to a compiled loop; or :class:`NotCompiled`."""
+    called = law_code.read(function).functions
+    for each in called:
+        _register(each)
+    own = not function.__module__.startswith(law_code.OWN)
+    try:
+        code = _told_apart(function) if function.__closure__ or own else function
+        return _machine_code(code, signature_of(kind))
+    except Exception as error:  # numba has many kinds of them
+        return NotCompiled(_why(error, function))
+
+
+REASON = re.compile(
+    r"^(?:\w+Error: )?((?:Untyped global name|No implementation of|Cannot |Use of unsupported|"
+    r"Unknown attribute|No conversion|Unsupported|Invalid use|Unification|cannot |The use of).*"
+    r"|.*(?:not supported|unsupported).*)$",
+    re.MULTILINE | re.IGNORECASE,
+)
+PLACE = re.compile(r'File "([^"]+)", line (\d+)')
+
+
+def _why(error: Exception, function: FunctionType) -> str:
+    """One line of numba's many: the innermost reason, and the place in the law's own files."""
+    text = re.sub(r"\x1b\[[0-9;]*m", "", str(error))
+    lines = [line for line in map(str.strip, text.splitlines()) if line]
+    reasons = REASON.findall(text)
+    why = reasons[-1] if reasons else (lines[0] if lines else type(error).__name__)
+    why = re.sub(r"<(?:built-in )?(?:function|class) '?([\w.]+)[^>]*>", r"\1", why).rstrip(":. ")
+    places = [place for place in PLACE.findall(text) if Path(place[0]).is_file()]
+    first = (function.__code__.co_filename, str(function.__code__.co_firstlineno))
+    file, line = places[-1] if places else first
+    return f"{file}, line {line}: {why}"
 
 
 def _told_apart(function: FunctionType) -> FunctionType:
-    """A copy of a function made by another one, its name telling what it encloses.
+    """A copy of a function, its name telling what it encloses and calls.
 
     Numba's cache knows a function by its file, name and code, and not by what it calls.
     """
-    for cell in function.__closure__ or ():
-        if isinstance(cell.cell_contents, FunctionType):
-            _register(cell.cell_contents)
     copy = FunctionType(
         function.__code__,
         function.__globals__,
@@ -137,11 +173,19 @@ def _loop(function: Callable[..., Any]) -> Any:
 
 def _compiled_laws(function: Callable[..., Any], chosen: Laws) -> list[Any]:
     kinds = arguments_of(function)[0].values()
-    return [law(each, kind) for each, kind in zip(chosen, kinds, strict=True)]
+    found = [law(each, kind) for each, kind in zip(chosen, kinds, strict=True)]
+    for each in found:
+        if isinstance(each, NotCompiled):
+            raise each
+    return found
 
 
 def loop(function: Callable[..., Any], chosen: Laws) -> Callable[..., Any]:
-    """A loop whose first arguments are laws, with these laws: called through pointers."""
+    """A loop whose first arguments are laws, with these laws: called through pointers.
+
+    Raises:
+        NotCompiled: one of them cannot be compiled.
+    """
     return partial(_loop(function), *_compiled_laws(function, chosen))
 
 
@@ -172,9 +216,19 @@ def _digest(identity: Any) -> str:
 
 
 def _identity(thing: Any) -> Any:
-    """What tells a law from all others, and from what it was before its file was changed."""
+    """What tells a law from all others, and from what it was before its files were changed."""
     if not isinstance(thing, FunctionType):
         return repr(thing)
-    file = os.stat(thing.__code__.co_filename)
     enclosed = [_identity(cell.cell_contents) for cell in thing.__closure__ or ()]
-    return thing.__module__, thing.__qualname__, file.st_mtime_ns, file.st_size, enclosed
+    if thing.__module__.startswith(law_code.OWN):  # the folder's name tells these sources
+        return (*_source(thing), enclosed)
+    code = law_code.read(thing)
+    return (*_source(thing), enclosed, [*map(_source, code.functions)], code.globals)
+
+
+def _source(function: FunctionType) -> tuple[object, ...]:
+    try:
+        file = os.stat(function.__code__.co_filename)
+    except OSError:  # made of text
+        return function.__module__, function.__qualname__, function.__code__.co_code
+    return function.__module__, function.__qualname__, file.st_mtime_ns, file.st_size

@@ -1,7 +1,6 @@
 """The in-process engine: the control cycle over a whole run, compiled, without ROS."""
 
 from collections.abc import Callable, Sequence
-from functools import partial
 from typing import Any
 
 import numpy as np
@@ -14,15 +13,20 @@ from fpt_ros.cycle.run import Run
 from fpt_ros.cycle.stages import Loop
 from fpt_ros.engine import compiled
 from fpt_ros.engine.buffers import Buffers, Whole
+from fpt_ros.engine.in_python import in_python
 from fpt_ros.engine.types import Array, as_arrays, empty
 from fpt_ros.errors import Diverged, RunFailed
 from fpt_ros.messages.frames import SECOND, Command, StateEstimate
 from fpt_ros.messages.topics import COMMAND
+from fpt_ros.notices import notice
 from fpt_ros.runs.chunks import CHUNK, Consumer
 from fpt_ros.runs.run import Series
 
 LONG = 500_000
 """Cycles from which a specialised loop is worth the seconds that it takes, once."""
+
+SLOWER = "about 100 times slower"
+"""As measured with TORA."""
 
 
 class Engine:
@@ -83,9 +87,13 @@ class Engine:
             self._loop.plant.law,
         )
         if not compile_laws:
-            return partial(cycle.run, *laws)
+            return in_python(laws)
         loop_with = compiled.specialised_loop if self.cycles >= LONG else compiled.loop
-        return loop_with(cycle.run, laws)
+        try:
+            return loop_with(cycle.run, laws)
+        except compiled.NotCompiled as error:
+            notice(f"a law cannot be compiled, {error.why}; the run is in Python, {SLOWER}")
+            return in_python(laws)
 
     @property
     def cycles(self) -> int:

@@ -30,7 +30,10 @@ def register() -> None:
     make = _make_pointer()
 
     def pointer(address: Any) -> Callable[..., Any]:
-        return lambda address: make(address)
+        def called(address: Any) -> Any:  # numba compares the annotations, too
+            return make(address)
+
+        return called
 
     overload(foreign.pointer, jit_options=OPTIONS)(pointer)
 

@@ -16,11 +16,14 @@ from typing import Any
 from fpt_ros import law_code
 from fpt_ros.cycle.stages import Loop
 from fpt_ros.errors import BadInput
-from fpt_ros.experiments.law_trials import Trial, trials
+from fpt_ros.experiments.law_trials import Trial, laws_of, trials
 from fpt_ros.experiments.watched import Misuse, Watched
 from fpt_ros.notices import notice
 
-_good: set[tuple[object, ...]] = set()
+_good: dict[tuple[object, ...], None] = {}
+
+KEPT = 256
+"""Combinations of laws that a process remembers to be good."""
 
 
 def check_laws(loop: Loop) -> None:
@@ -29,11 +32,14 @@ def check_laws(loop: Loop) -> None:
     Raises:
         BadInput: one does not; the message names the law, its file, the line and the remedy.
     """
+    key = laws_of(loop)
+    if key in _good:
+        return
     for trial in trials(loop):
-        key = (trial.law, trial.name, *trial.sizes())
-        if key not in _good:
-            _check(trial)
-            _good.add(key)
+        _check(trial)
+    if len(_good) >= KEPT:
+        _good.pop(next(iter(_good)))
+    _good[key] = None
 
 
 def _check(trial: Trial) -> None:

@@ -34,15 +34,33 @@ class Trial:
     calls: Callable[[], list[tuple[Any, ...]]]
     gives_number: bool = False
 
-    def sizes(self) -> tuple[int, ...]:
-        """Lengths of its vectors."""
-        first = self.calls()[0]
-        return tuple(len(each) if hasattr(each, "__len__") else 1 for each in first)
-
     def written(self) -> list[str]:
         """Names of what it writes its results into."""
         outs = [name for name in self.takes if name.startswith("out") or name == "acted"]
         return outs or ["values"]
+
+
+def laws_of(loop: Loop) -> tuple[object, ...]:
+    """What tells one combination of laws, and the lengths of their vectors, from others."""
+    plant, tuner, deformer = loop.plant.plant, loop.tuner, loop.deformer
+    return (
+        plant.response,
+        plant.advance,
+        plant.start,
+        loop.plant.disturbance.force,
+        loop.denoiser.filter.start,
+        loop.denoiser.filter.update,
+        loop.trajectory.trajectory.nominal,
+        loop.trajectory.relaxation.prescribe,
+        tuner.law.update,
+        tuner.regressor,
+        deformer.transformation.deform,
+        deformer.model.effort,
+        deformer.compensator.compensate,
+        loop.trajectory.controlled,
+        deformer.controlled,
+        *(stage.layout.size for stage in loop.stages() if stage.layout is not None),
+    )
 
 
 def trials(loop: Loop) -> Iterator[Trial]:
