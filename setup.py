@@ -95,6 +95,7 @@ setup(
             "lorenz = fpt_ros.plants.lorenz:MODEL",
             "mimo_affine = fpt_ros.plants.mimo_affine:MODEL",
             "mujoco = fpt_ros.plants.mujoco.model:MODEL",
+            "mujoco_diagonal = fpt_ros.plants.mujoco.diagonal:MODEL",
             "siso_affine = fpt_ros.plants.siso_affine:MODEL",
             "spherical_affine = fpt_ros.plants.spherical_pendulum:AFFINE_MODEL",
             "spherical_fully_fuzzy = fpt_ros.plants.spherical_pendulum:FULLY_FUZZY",
@@ -113,6 +114,8 @@ setup(
             "spline = fpt_ros.trajectories.spline:SPLINE",
         ],
         "fpt_ros.relaxations": [
+            "feedback_pd = fpt_ros.relaxations.feedback_pd:FEEDBACK_PD",
+            "feedback_pid = fpt_ros.relaxations.feedback_pid:FEEDBACK_PID",
             "pd = fpt_ros.relaxations.pd:PD",
             "pi = fpt_ros.relaxations.pi:PI",
             "pid = fpt_ros.relaxations.pid:PID",
@@ -122,7 +125,9 @@ setup(
         ],
         "fpt_ros.compensators": [
             "disturbance_observer = fpt_ros.compensators.disturbance_observer:DISTURBANCE_OBSERVER",
+            "incremental = fpt_ros.compensators.incremental:INCREMENTAL",
             "none = fpt_ros.compensators.none:NONE",
+            "time_delay = fpt_ros.compensators.time_delay:TIME_DELAY",
         ],
         "fpt_ros.disturbances": [
             "none = fpt_ros.disturbances:NONE",

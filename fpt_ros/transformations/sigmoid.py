@@ -25,7 +25,9 @@ from fpt_ros.transformations import FORM, TINY, Transformation
 
 A = Parameter("A", "gain of the response error; its sign is that of convergence", -0.1)
 
-SCALE = Parameter("scale", "S, by which the map is widened: its steps become longer", 1.0, above=0.0)
+SCALE = Parameter(
+    "scale", "S, by which the map is widened: its steps become longer", 1.0, above=0.0
+)
 
 FIRST = 5
 """Constants (A, x*, least argument, 1 for the signed form or 0, S), then those of F."""

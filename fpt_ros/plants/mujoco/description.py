@@ -105,6 +105,7 @@ def _compiled(
     where = f"{prefix}.file: {path}"
     spec = _read(path, where)
     chosen, limits = _reduce(spec, joints, where, prefix)
+    spec.compiler.fusestatic = False
     body = _add_tool(spec, chosen, flange, prefix)
     try:
         bare = spec.compile()
