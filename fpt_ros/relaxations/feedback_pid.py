@@ -7,7 +7,7 @@ from fpt_ros.relaxations import Relaxation
 def prescribe(
     constants: Vector, nominal: float, e: float, e_dot: float, e_integral: float
 ) -> float:
-    """Return 3 Lambda^2 e + 3 Lambda e' + Lambda^3 int e: three poles at -Lambda for a unit mass."""
+    """Return 3 Lambda^2 e + 3 Lambda e' + Lambda^3 int e: three poles at -Lambda."""
     lam = constants[0]
     return lam * (lam * (3.0 * e + lam * e_integral) + 3.0 * e_dot)
 

@@ -1,4 +1,4 @@
-"""q^N(t) = offset + s(t) (a sin(w t + phase) + b sin(u t + phase_2)): robot arms from their posture.
+"""q^N(t) = offset + s(t) (a sin(w t + phase) + b sin(u t + phase_2)): arms from their posture.
 
 s(t) is the quintic 10 x^3 - 15 x^4 + 6 x^5 of x = t / rise, 1 from x = 1 on, which has minimum jerk
 (Flash and Hogan 1985): the motion begins at rest at the offset, and is smooth up to its

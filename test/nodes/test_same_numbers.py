@@ -26,7 +26,15 @@ SHORTENED = {
 }
 """What makes a short run pass through all that a long one does."""
 
-EVERY = [(name, variant) for name, variants in available().items() for variant in variants]
+ALIKE = ("ur5e", "iiwa")
+"""Arms whose variants are Panda's with other numbers."""
+
+EVERY = [
+    (name, variant)
+    for name, variants in available().items()
+    for variant in variants
+    if name not in ALIKE or variant == "adaptive"
+]
 
 SEPARATE = [
     ("tora", "adaptive", 16, ()),

@@ -1,11 +1,11 @@
 """From a description file to MuJoCo's model of the arm, fixed at its base."""
 
 import math
-import xml.etree.ElementTree as xml
 from copy import copy
 from functools import lru_cache
 from pathlib import Path
 from typing import Any, NamedTuple
+from xml.etree import ElementTree
 
 from fpt_ros.errors import BadInput
 from fpt_ros.parameters import Parameter, Values, number, numbers, word, words
@@ -127,7 +127,9 @@ def _compiled(
     count = bare.njnt
     names = tuple(bare.joint(i).name for i in range(count))
     ranges = [
-        tuple(map(float, bare.jnt_range[i])) if bare.jnt_limited[i] else (-math.inf, math.inf)
+        (float(bare.jnt_range[i][0]), float(bare.jnt_range[i][1]))
+        if bare.jnt_limited[i]
+        else (-math.inf, math.inf)
         for i in range(count)
     ]
     turns = tuple(int(kind) == int(mujoco.mjtJoint.mjJNT_HINGE) for kind in bare.jnt_type)
@@ -141,16 +143,16 @@ def _read(path: Path, where: str) -> Any:
     """
     mujoco = bindings()
     try:
-        root = xml.parse(path).getroot()
+        root = ElementTree.parse(path).getroot()
         if root.tag == "robot":
             for link in root.iter("link"):
                 for shape in [*link.findall("visual"), *link.findall("collision")]:
                     link.remove(shape)
-            return mujoco.MjSpec.from_string(xml.tostring(root, encoding="unicode"))
+            return mujoco.MjSpec.from_string(ElementTree.tostring(root, encoding="unicode"))
         if root.tag != "mujoco":
             raise BadInput(f"{where} is neither MJCF nor URDF: it begins with <{root.tag}>")
         return mujoco.MjSpec.from_file(str(path))
-    except xml.ParseError as error:
+    except ElementTree.ParseError as error:
         raise BadInput(f"{where} is not XML: {error}") from error
     except (OSError, ValueError) as error:
         raise BadInput(f"{where} cannot be read: {_reason(error)}") from error

@@ -12,10 +12,10 @@ from fpt_ros.foreign import call, pointer
 from fpt_ros.laws import MutableVector, Vector
 from fpt_ros.parameters import Parameter, Values, flag, numbers
 from fpt_ros.plants import Factory, Model
-from fpt_ros.plants.mujoco import model
+from fpt_ros.plants.mujoco import description, model
 
 PARAMETERS = (
-    *model.description.PARAMETERS,
+    *description.PARAMETERS,
     Parameter("inertia", "m, one a joint", [], above=0.0, live=False),
     Parameter("gravity", "whether it is made up for", False, live=False),
 )

@@ -12,7 +12,7 @@ from fpt_ros.foreign import address_of
 class Functions(NamedTuple):
     """Addresses, of this process alone.
 
-    ``copy`` is memcpy: for what C keeps in its own memory.
+    ``copy`` is memmove: for what C keeps in its own memory.
     """
 
     set_state: float
@@ -60,22 +60,19 @@ def functions() -> Functions:
     if not found:
         raise BadInput(f"{package} holds no shared library of MuJoCo: pip install mujoco")
     library = ctypes.CDLL(str(found[0]))
-    names = (
-        "mj_setState",
-        "mj_getState",
-        "mj_resetData",
-        "mj_step",
-        "mj_forward",
-        "mj_kinematics",
-        "mj_comPos",
-        "mj_comVel",
-        "mj_rne",
-    )
+    names = {
+        "set_state": "mj_setState",
+        "get_state": "mj_getState",
+        "reset": "mj_resetData",
+        "step": "mj_step",
+        "forward": "mj_forward",
+        "kinematics": "mj_kinematics",
+        "centres": "mj_comPos",
+        "velocities": "mj_comVel",
+        "inverse": "mj_rne",
+    }
     try:
-        return Functions(*(address_of(getattr(library, name)) for name in names), _memcpy())
+        found_at = {ours: address_of(getattr(library, name)) for ours, name in names.items()}
+        return Functions(copy=address_of(ctypes.memmove), **found_at)
     except AttributeError as error:
         raise BadInput(f"{found[0]} is of another version: {error}") from error
-
-
-def _memcpy() -> float:
-    return float(ctypes.cast(ctypes.memmove, ctypes.c_void_p).value or 0)
