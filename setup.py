@@ -126,6 +126,7 @@ setup(
         "fpt_ros.compensators": [
             "disturbance_observer = fpt_ros.compensators.disturbance_observer:DISTURBANCE_OBSERVER",
             "incremental = fpt_ros.compensators.incremental:INCREMENTAL",
+            "momentum_observer = fpt_ros.compensators.momentum_observer:MOMENTUM_OBSERVER",
             "none = fpt_ros.compensators.none:NONE",
             "time_delay = fpt_ros.compensators.time_delay:TIME_DELAY",
         ],
