@@ -26,7 +26,9 @@ PARAMETERS = (
         "flange", "site or body that carries the tool; empty: 'flange', or the last", "", live=False
     ),
     Parameter("tool", "mass at the flange", 0.0, unit="kg", minimum=0.0, live=False),
-    Parameter("tool_position", "its centre, from the flange", [0.0, 0.0, 0.05], unit="m"),
+    Parameter(
+        "tool_position", "its centre, from the flange", [0.0, 0.0, 0.05], unit="m", live=False
+    ),
     Parameter("tool_inertia", "about each axis", 0.004, unit="kg m^2", minimum=0.0, live=False),
 )
 """What plant and model have in common."""
