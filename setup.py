@@ -14,6 +14,7 @@ FIGURES = ["matplotlib", "jinja2"]
 OFFLINE = ["scikit-fuzzy", "pyarrow", "matplotlib"]
 CLUSTER = ["dask", "distributed"]
 PEERS = ["scikit-image", "statsmodels"]
+ROBOTS = ["mujoco>=3.3"]
 SWEEP = ["optuna>=5", "pyarrow", "matplotlib"]
 # Jazzy for machines without it: wheels of the real thing (x86-64 Linux, CPython 3.10 to 3.14)
 ROS = [
@@ -29,6 +30,7 @@ EXTRAS = {
     "export": ["pandas", "pyarrow"],  # fpt export, fpt_ros.load
     "denoise": OFFLINE,  # fpt denoise
     "thesis": sorted({*FIGURES, *OFFLINE}),  # fpt reproduce
+    "robots": ROBOTS,  # arms from a file: plant and model mujoco
     "cluster": CLUSTER,  # fpt sweep --scheduler
     "peers": PEERS,  # methods of other libraries in fpt denoise and reproduce
     "ros": ROS,
@@ -43,7 +45,7 @@ EXTRAS = {
         "pandas",
         "setuptools<80",
         "wheel",
-        *sorted({*FIGURES, *OFFLINE, *SWEEP, *CLUSTER, *PEERS}),
+        *sorted({*FIGURES, *OFFLINE, *SWEEP, *CLUSTER, *PEERS, *ROBOTS}),
     ],
     "lint": ["ruff", "mypy", "pre-commit"],
     "docs": ["sphinx", "furo", "myst-parser", "sphinx-autoapi"],
@@ -76,6 +78,7 @@ setup(
         "fpt_ros.analysis": ["*.html.j2", "*.css"],
         "fpt_ros.thesis": ["*.html.j2"],
         "fpt_ros.nodes": ["*.xml"],
+        "fpt_ros.plants.mujoco": ["arms/*.xml"],
     },
     data_files=[
         ("share/ament_index/resource_index/packages", ["resource/fpt_ros"]),
@@ -110,6 +113,7 @@ setup(
             "kapitza = fpt_ros.plants.kapitza:PLANT",
             "lorenz = fpt_ros.plants.lorenz:PLANT",
             "mimo_affine = fpt_ros.plants.mimo_affine:PLANT",
+            "mujoco = fpt_ros.plants.mujoco.plant:PLANT",
             "siso_affine = fpt_ros.plants.siso_affine:PLANT",
             "spherical_pendulum = fpt_ros.plants.spherical_pendulum:PLANT",
             "swing = fpt_ros.plants.swing:PLANT",
@@ -127,6 +131,8 @@ setup(
             "kapitza_with_gravity = fpt_ros.plants.kapitza:WITH_GRAVITY",
             "lorenz = fpt_ros.plants.lorenz:MODEL",
             "mimo_affine = fpt_ros.plants.mimo_affine:MODEL",
+            "mujoco = fpt_ros.plants.mujoco.model:MODEL",
+            "mujoco_diagonal = fpt_ros.plants.mujoco.diagonal:MODEL",
             "siso_affine = fpt_ros.plants.siso_affine:MODEL",
             "spherical_affine = fpt_ros.plants.spherical_pendulum:AFFINE_MODEL",
             "spherical_fully_fuzzy = fpt_ros.plants.spherical_pendulum:FULLY_FUZZY",
@@ -137,6 +143,7 @@ setup(
             "van_der_pol_second_order = fpt_ros.plants.van_der_pol_second_order:MODEL",
         ],
         "fpt_ros.trajectories": [
+            "blended_sines = fpt_ros.trajectories.blended_sines:BLENDED_SINES",
             "constant = fpt_ros.trajectories.constant:CONSTANT",
             "cosines = fpt_ros.trajectories.cosines:COSINES",
             "fitzhugh_nagumo = fpt_ros.trajectories.fitzhugh_nagumo:FITZHUGH_NAGUMO",
@@ -144,6 +151,8 @@ setup(
             "spline = fpt_ros.trajectories.spline:SPLINE",
         ],
         "fpt_ros.relaxations": [
+            "feedback_pd = fpt_ros.relaxations.feedback_pd:FEEDBACK_PD",
+            "feedback_pid = fpt_ros.relaxations.feedback_pid:FEEDBACK_PID",
             "pd = fpt_ros.relaxations.pd:PD",
             "pi = fpt_ros.relaxations.pi:PI",
             "pid = fpt_ros.relaxations.pid:PID",
@@ -153,7 +162,10 @@ setup(
         ],
         "fpt_ros.compensators": [
             "disturbance_observer = fpt_ros.compensators.disturbance_observer:DISTURBANCE_OBSERVER",
+            "incremental = fpt_ros.compensators.incremental:INCREMENTAL",
+            "momentum_observer = fpt_ros.compensators.momentum_observer:MOMENTUM_OBSERVER",
             "none = fpt_ros.compensators.none:NONE",
+            "time_delay = fpt_ros.compensators.time_delay:TIME_DELAY",
         ],
         "fpt_ros.disturbances": [
             "none = fpt_ros.disturbances:NONE",

@@ -14,6 +14,7 @@ MODULES = {
     "export": ("pandas", "pyarrow"),
     "denoise": ("matplotlib", "pyarrow", "skfuzzy"),
     "thesis": ("matplotlib", "jinja2", "pyarrow", "skfuzzy"),
+    "robots": ("mujoco",),
     "cluster": ("dask", "distributed"),
     "peers": ("skimage", "statsmodels"),
 }

@@ -17,7 +17,8 @@ class DeformerConstants(NamedTuple):
     ``transformation``: its constants, A in force first; ``coefficients`` of the model; ``weights``
     of the response errors (c). ``gain``: A as it is without a tuner; ``tuned``: where a message of
     the tuner has what. ``where``: places of the controlled coordinates; ``initial``: deformed
-    response of the first cycle, or empty; ``delay``, ``hold``: learning delay and hold [cycles];
+    response of the first cycle, or empty; ``delay``: cycles from a deformed response to the one
+    that goes on from it, ``late`` of them because sensors are; ``hold``: learning hold [cycles];
     ``adapts``: whether there is a transformation; ``adaptive_from`` [s].
     """
 
@@ -29,6 +30,7 @@ class DeformerConstants(NamedTuple):
     where: Indices
     initial: Vector
     delay: int
+    late: int
     hold: int
     adapts: int
     adaptive_from: float
@@ -116,7 +118,8 @@ def deform_response(
     count = int(memory.cycles[0])
     memory.cycles[0] = count + 1.0
     turn = count % delay if delay > 1 else 0
-    then = turn + 1 if turn + 1 < delay else 0
+    then = turn + 1 + constants.late
+    then = then if then < delay else then - delay
     for i in range(n):
         seen[turn, i] = response[i]
         combined[i] = 0.0

@@ -69,6 +69,14 @@ PARAMETERS = (
         maximum=1000,
         live=False,
     ),
+    Parameter(
+        "sensor_delay",
+        "cycles by which the response observed is late, beside the learning delay",
+        0,
+        minimum=0,
+        maximum=1000,
+        live=False,
+    ),
     Parameter("weights", "of the response errors, per controlled coordinate; empty: ones", []),
     Parameter(
         "initial_response",
@@ -117,11 +125,14 @@ class FptDeformer(Stage):
         self.model, self.coefficients = model_of(values)
         self.transformation = TRANSFORMATIONS[word(values, TRANSFORMATION.name)]
         self.compensator = COMPENSATORS[word(values, COMPENSATOR.name)]
-        self.delay, self.hold = integer(values, "learning_delay"), integer(values, "learning_hold")
+        self.late, self.hold = integer(values, "sensor_delay"), integer(values, "learning_hold")
+        self.delay = integer(values, "learning_delay") + self.late
         if flag(values, "synchronised") and max(self.delay, self.hold) > 1:
-            raise BadInput(f"{self.name}: synchronised excludes learning_delay and learning_hold")
+            raise BadInput(
+                f"{self.name}: synchronised excludes learning_delay, learning_hold and sensor_delay"
+            )
         if self.delay > 1 and self.hold > 1:
-            raise BadInput(f"{self.name}: learning_delay and learning_hold exclude each other")
+            raise BadInput(f"{self.name}: learning_hold excludes learning_delay and sensor_delay")
         n = len(self.model.coordinates)
         self._transformation = list(self.transformation.prepare(values))
         dt = number(values, CYCLE_TIME.name)
@@ -171,6 +182,7 @@ class FptDeformer(Stage):
             where=indices(controlled, self.model.coordinates, f"{self.name}.model"),
             initial=numbers(values, "initial_response"),
             delay=self.delay,
+            late=self.late,
             hold=self.hold,
             adapts=int(self.transformation.adapts),
             adaptive_from=number(values, "adaptive_from"),

@@ -128,6 +128,8 @@ class PlantSimulator(Stage):
             velocity_measured=int(word(values, "measured") == "all"),
             late=late,
         )
+        if plant.set_step is not None:
+            plant.set_step(self.constants.h)
         self.timeout = round(number(values, "command_timeout") * SECOND)
         self.law = self._law()
         self.noise = Noise(seed, 2 * n)

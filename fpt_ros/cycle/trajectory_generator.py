@@ -11,7 +11,7 @@ from fpt_ros.errors import BadInput
 from fpt_ros.laws import Indices, MutableVector, Vector, helper
 from fpt_ros.messages.frames import SECOND, Desired, Names, StateEstimate
 from fpt_ros.messages.topics import DESIRED, STATE_ESTIMATE
-from fpt_ros.parameters import Parameter, Values, numbers, word, words
+from fpt_ros.parameters import Parameter, Values, integer, number, numbers, word, words
 from fpt_ros.relaxations import RELAXATIONS, Prescribe, combined_error
 from fpt_ros.trajectories import TRAJECTORIES, Nominal
 
@@ -37,6 +37,14 @@ PARAMETERS = (
         above=0.0,
         live=False,
     ),
+    Parameter(
+        "nominal_delay",
+        "cycles by which the nominal motion is late, as sensors may be",
+        0,
+        minimum=0,
+        maximum=1000,
+        live=False,
+    ),
     REALTIME,
     CYCLE_TIME,
     JOINTS,
@@ -47,7 +55,8 @@ class TrajectoryConstants(NamedTuple):
     """Constants of the motion and of the relaxation; places of the controlled coordinates; slots.
 
     ``slots``: how long each coordinate's turn is [ns]; empty: it is always everyone's. ``order``:
-    derivative of the nominal motion that is the nominal response, that of the plant.
+    derivative of the nominal motion that is the nominal response, that of the plant. ``late``: by
+    which the nominal motion is delayed [s].
     """
 
     nominal: Vector
@@ -55,6 +64,7 @@ class TrajectoryConstants(NamedTuple):
     where: Indices
     slots: Vector
     order: int
+    late: float
 
 
 class TrajectoryMemory(NamedTuple):
@@ -104,8 +114,15 @@ def prescribe(
     dt [s] since the latest cycle, 0 in the first. A coordinate whose turn it is not (``active``)
     gets NaN as its response; where its turn begins, its integral is zero.
     """
+    then = max(t - constants.late, 0.0)
     nominal(
-        constants.nominal, memory.nominal, t, dt, out.positions, out.velocities, out.accelerations
+        constants.nominal,
+        memory.nominal,
+        then,
+        dt,
+        out.positions,
+        out.velocities,
+        out.accelerations,
     )
     rate, integral, last = constants.relaxation, memory.integral, memory.error
     q, v, q_n, v_n = estimate.positions, estimate.velocities, out.positions, out.velocities
@@ -179,7 +196,8 @@ class TrajectoryGenerator(Stage):
         self._entrance = Entrance(f"{self.name}, state_estimate", tuple(words(values, "joints")))
         self.entrances = {STATE_ESTIMATE.name: self._entrance}
         self._names: Names = ()
-        self.constants = TrajectoryConstants(motion, decay, (), slots, self.relaxation.order)
+        late = self._delay()
+        self.constants = TrajectoryConstants(motion, decay, (), slots, self.relaxation.order, late)
         self._turns = [(name,) for name in self.controlled]
         layout = Layout(
             TrajectoryMemory, integral=c, error=c, turn=1, nominal=len(self.trajectory.state)
@@ -189,6 +207,16 @@ class TrajectoryGenerator(Stage):
             self.memory.turn[0] = -1.0
             for i, x in enumerate(self.trajectory.state):
                 self.memory.nominal[i] = x
+
+    def _delay(self) -> float:
+        """By how long the nominal motion is late [s]."""
+        cycles, dt = integer(self.values, "nominal_delay"), number(self.values, CYCLE_TIME.name)
+        if cycles and self.trajectory.state:
+            name = word(self.values, "trajectory")
+            raise BadInput(f"{self.name}.nominal_delay: {name} is integrated, it cannot be late")
+        if cycles and not dt:
+            raise BadInput(f"{self.name}.cycle_time is missing: nominal_delay is told in cycles")
+        return cycles * dt
 
     def locate(self, names: Names) -> tuple[int, ...]:
         """Where the controlled coordinates stand among ``names``."""

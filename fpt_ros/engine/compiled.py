@@ -30,7 +30,7 @@ _SOURCES = (
     "cycle/*.py",
     "engine/*.py",
     "messages/frames.py",
-    "plants/*.py",
+    "plants/**/*.py",
     "trajectories/*.py",
     "relaxations/*.py",
     "disturbances/*.py",

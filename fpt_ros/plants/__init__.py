@@ -62,6 +62,8 @@ class Plant:
             ``state`` numbers of its own. What it cannot do it writes as NaN.
         state: number of state variables beside q and v.
         start: ``start(coefficients, state, q, v)`` sets them for the initial motion.
+        set_step: of a plant that integrates itself: it is told once how long its steps are [s],
+            before the first; ``None``: it need not know.
         order: 2 for mechanical systems, whose response is the acceleration; 1 where it is the first
             derivative; 0 where it is the value itself (a bare iteration).
         workspace: coefficients -> (lowest, highest) position of each coordinate that a nominal
@@ -82,6 +84,7 @@ class Plant:
     advance: Advance | None = None
     state: int = 0
     start: Start | None = None
+    set_step: Callable[[float], None] | None = None
 
 
 @dataclass(frozen=True)

@@ -29,12 +29,12 @@ def prepare(values: Values) -> tuple[float, ...]:
 @helper
 def generator(constants: Vector, x: float) -> float:
     """F(x)."""
-    return math.atanh(0.5 * math.tanh(x + constants[4]))
+    return math.atanh(0.5 * math.tanh(x + constants[5]))
 
 
 def derivative(constants: Vector, x: float) -> float:
     """F'(x) = (1 - y^2) / 2 / (1 - y^2 / 4), y = tanh(x + D)."""
-    y = math.tanh(x + constants[4])
+    y = math.tanh(x + constants[5])
     return 0.5 * (1.0 - y * y) / (1.0 - 0.25 * y * y)
 
 

@@ -52,14 +52,14 @@ def prepare(values: Values) -> tuple[float, ...]:
 @helper
 def generator(constants: Vector, x: float) -> float:
     """F(x) = atanh(tanh x - K) + D; NaN outside its domain."""
-    y = math.tanh(x) - constants[4]
-    return math.atanh(y) + constants[5] if -1.0 < y < 1.0 else math.nan
+    y = math.tanh(x) - constants[5]
+    return math.atanh(y) + constants[6] if -1.0 < y < 1.0 else math.nan
 
 
 def derivative(constants: Vector, x: float) -> float:
     """F'(x) = (1 - tanh^2 x) / (1 - (tanh x - K)^2)."""
     y = math.tanh(x)
-    return (1.0 - y * y) / (1.0 - (y - constants[4]) * (y - constants[4]))
+    return (1.0 - y * y) / (1.0 - (y - constants[5]) * (y - constants[5]))
 
 
 SGFPT = sigmoid.transformation(generator, PARAMETERS, prepare, derivative)

@@ -31,13 +31,13 @@ def prepare(values: Values) -> tuple[float, ...]:
 @helper
 def generator(constants: Vector, x: float) -> float:
     """F(x)."""
-    return constants[4] * math.tanh(constants[5] * (x + constants[6])) + constants[7]
+    return constants[5] * math.tanh(constants[6] * (x + constants[7])) + constants[8]
 
 
 def derivative(constants: Vector, x: float) -> float:
     """F'(x) = a B (1 - tanh^2(a (x + b)))."""
-    y = math.tanh(constants[5] * (x + constants[6]))
-    return constants[4] * constants[5] * (1.0 - y * y)
+    y = math.tanh(constants[6] * (x + constants[7]))
+    return constants[5] * constants[6] * (1.0 - y * y)
 
 
 STRETCHED = sigmoid.transformation(generator, PARAMETERS, prepare, derivative)

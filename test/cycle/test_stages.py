@@ -326,7 +326,9 @@ def test_time_of_the_trajectory_counts_from_its_first_cycle():
 def test_the_trajectory_names_a_coordinate_that_the_plant_lacks():
     trajectory = stages().trajectory
     frame = StateEstimate(0, ("q1", "q2"), [0.0] * 2, [0.0] * 2, [NAN] * 2, [NAN] * 2)
-    with pytest.raises(BadInput, match=r"state_estimate: the joint 'q3' is not there, only q1, q2$"):
+    with pytest.raises(
+        BadInput, match=r"state_estimate: the joint 'q3' is not there, only q1, q2$"
+    ):
         trajectory.step(frame)
     assert indices(["b", "a"], ("a", "b", "c"), "x") == (1, 0)
 

@@ -27,7 +27,15 @@ SHORTENED = {
 }
 """What makes a short run pass through all that a long one does."""
 
-EVERY = [(name, variant) for name, variants in available().items() for variant in variants]
+ALIKE = ("ur5e", "iiwa")
+"""Arms whose variants are Panda's with other numbers."""
+
+EVERY = [
+    (name, variant)
+    for name, variants in available().items()
+    for variant in variants
+    if name not in ALIKE or variant == "adaptive"
+]
 
 ONE_OF_EACH = [
     (name, variants[at % len(variants)]) for at, (name, variants) in enumerate(available().items())

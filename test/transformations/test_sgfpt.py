@@ -259,3 +259,22 @@ def test_iterations_until_the_map_of_two_coordinates_has_converged(a, limit, ite
 def test_the_printed_sign_of_a_diverges():
     norms, _ = mimo(0.20)
     assert norms[-1] > norms[200] > norms[100] > 10.0
+
+
+@given(h=vector, S=st.sampled_from([0.5, 1.0, 8.0, 64.0]), form=st.sampled_from(["norm", "signed"]))
+def test_the_scale_widens_the_map_without_another_shape(h, S, form):
+    """A step of the map of scale S for h is S times that of scale 1 for h / S."""
+    own = {"A": -0.7, "form": form}
+    zero = [0.0, 0.0]
+    wide = transformation(scale=S, **own)(zero, h)
+    narrow = transformation(**own)(zero, [x / S for x in h])
+    assert wide == pytest.approx([S * x for x in narrow], rel=1e-12, abs=1e-12)
+
+
+def test_the_scale_makes_long_steps_possible():
+    reach = REPULSIVE - ATTRACTIVE
+    for S in (1.0, 10.0):
+        (r,) = transformation(A=-3.0, scale=S)([0.0], [1e6])
+        assert r == pytest.approx(S * reach)
+    constants = SGFPT.prepare(resolve(SGFPT.parameters, {"scale": 10.0}, "test"))
+    assert SGFPT.step_limit(constants) == pytest.approx(-10.0 * reach)

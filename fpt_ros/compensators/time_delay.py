@@ -1,0 +1,47 @@
+"""Time delay control (Youcef-Toumi and Ito 1990; Hsia 1989): the last effort is the model.
+
+What the effort of the cycle before caused is known, so only the change of the response is asked of
+a constant diagonal inertia::
+
+    tau_k = tau_{k-1} + m (r_k - response_k)
+
+It takes the place of the model's effort once a response is known. For m below the true inertia's
+smallest eigenvalue it is stable; an m of the true size is not where joints are coupled.
+"""
+
+import math
+
+from fpt_ros.compensators import Compensator, Observed
+from fpt_ros.errors import BadInput
+from fpt_ros.laws import MutableVector, Vector
+from fpt_ros.parameters import Parameter, Values, number, numbers
+
+PARAMETERS = (
+    Parameter("inertia", "m, one a coordinate", [], above=0.0),
+    Parameter("factor", "of all of them", 1.0, above=0.0),
+)
+
+
+def prepare(values: Values, n: int, dt: float) -> tuple[float, ...]:
+    """Constants: m times the factor, n of them.
+
+    Raises:
+        BadInput: of another number.
+    """
+    given, factor = numbers(values, "compensator.inertia"), number(values, "compensator.factor")
+    if len(given) != n:
+        raise BadInput(f"fpt_deformer.compensator.inertia: {len(given)} given, {n} needed")
+    return tuple(factor * m for m in given)
+
+
+def compensate(
+    constants: Vector, memory: MutableVector, dt: float, observed: Observed, out: MutableVector
+) -> None:
+    """The effort of the cycle before, and m times what the response lacks."""
+    for i in range(len(out)):
+        step = constants[i] * (observed.desired[i] - observed.response[i])
+        if not math.isnan(step):
+            out[i] = observed.effort[i] + step
+
+
+TIME_DELAY = Compensator(prepare, compensate, parameters=PARAMETERS)
