@@ -120,11 +120,11 @@ class Metrics:
         if set(self._tuned) & signals.coefficient_names(self._about):
             return self._tuned
         prefix = "approximate."
-        own = {
-            name.removeprefix(prefix): signals.parameter_number(self._about, "fpt_deformer", name)
-            for name in self._about.parameters.get("fpt_deformer", {})
-            if name.startswith(prefix)
-        }
+        own: dict[str, float | None] = {}
+        for name in self._about.parameters.get("fpt_deformer", {}):
+            number = signals.parameter_number(self._about, "fpt_deformer", name)
+            if name.startswith(prefix) and number is not None:  # a file's name is none
+                own[name.removeprefix(prefix)] = number
         return {**own, **self._tuned}
 
 

@@ -57,9 +57,12 @@ def test_no_address_stands_among_the_parameters():
 
 
 def test_half_of_the_model_costs_little_after_the_transformation():
-    """An arm with half of all inertias in the model: settled within 2 s."""
+    """An arm with half of all inertias in the model, from 2.5 s on.
+
+    Two cycles of delay in the sensors are made up for only where the deformer is told of them.
+    """
     errors = []
-    for variant in ("adaptive", "computed_torque"):
+    for variant in ("adaptive", "delayed", "computed_torque"):
         engine = Engine(experiment.load("panda", variant, (), 3.5, None).loop())
         engine.run()
         topics = engine.topics()
@@ -68,4 +71,5 @@ def test_half_of_the_model_costs_little_after_the_transformation():
         error = (nominal - topics["state_estimate"].vectors["positions"])[late]
         errors.append(float(np.sqrt(np.mean(error**2))))
     assert errors[0] < 1.5e-4
-    assert errors[1] > 300.0 * errors[0]
+    assert errors[1] < 5e-4
+    assert errors[2] > 300.0 * errors[0]

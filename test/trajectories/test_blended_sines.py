@@ -32,10 +32,11 @@ def test_velocity_and_acceleration_are_derivatives():
     h = 1e-4
     t = np.arange(0.0, 3.0, h)
     found = motion(t)
-    inner = slice(2, -2)
+    smooth = np.abs(t - GIVEN["rise"]) > 2 * h  # where the acceleration has a corner
+    smooth[:2] = smooth[-2:] = False
     for order in (1, 2):
         expected = np.gradient(found[:, order - 1], h, axis=0)
-        assert np.abs(found[:, order] - expected)[inner].max() < 1e-5
+        assert np.abs(found[:, order] - expected)[smooth].max() < 1e-5
 
 
 def test_it_begins_at_rest_at_the_posture():
