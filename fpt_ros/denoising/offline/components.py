@@ -14,7 +14,6 @@ et al., Astron. J. 154, 2017), so the steps need not be equal.
 
 import math
 
-import numpy as np
 from numba import njit
 
 from fpt_ros.denoising.offline import Signal

@@ -1,6 +1,6 @@
 """A Gaussian process whose kernel, noise and hyperparameters are those of most evidence, in O(n).
 
-The kernels are sums of a few components of :mod:`components`; the noise is white with a given profile,
+The kernels are sums of a few :mod:`components`; the noise is white with a given profile,
 and may have an AR(1) component beside. Hyperparameters maximise the marginal likelihood, in which
 the scale s of everything is known in closed form::
 
