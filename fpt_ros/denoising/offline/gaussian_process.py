@@ -1,6 +1,6 @@
 """A Gaussian process whose kernel, noise and hyperparameters are those of most evidence, in O(n).
 
-The kernels are sums of a few components of :mod:`kalman`; the noise is white with a given profile,
+The kernels are sums of a few :mod:`components`; the noise is white with a given profile,
 and may have an AR(1) component beside. Hyperparameters maximise the marginal likelihood, in which
 the scale s of everything is known in closed form::
 
@@ -17,17 +17,9 @@ import numpy as np
 import scipy.fft
 
 from fpt_ros.denoising.offline import Signal
+from fpt_ros.denoising.offline.components import DECAY, MATERN3, MATERN5, OSCILLATOR, STATES
 from fpt_ros.denoising.offline.evidence import descend, parts_of
-from fpt_ros.denoising.offline.kalman import (
-    DECAY,
-    MATERN3,
-    MATERN5,
-    OSCILLATOR,
-    STATES,
-    UNKNOWN,
-    likelihood,
-    smooth,
-)
+from fpt_ros.denoising.offline.kalman import UNKNOWN, likelihood, smooth
 
 KERNELS: dict[str, tuple[float, ...]] = {
     "walk": (DECAY,),

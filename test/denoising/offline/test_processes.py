@@ -5,14 +5,14 @@ import math
 import numpy as np
 import pytest
 
-from fpt_ros.denoising.offline import gaussian_process, kalman, mixture, process_member
+from fpt_ros.denoising.offline import components, gaussian_process, kalman, mixture, process_member
 
 PARTS = np.array(
     [
-        [kalman.DECAY, 0.5, 3.0, 0.0],
-        [kalman.MATERN3, 1.0, 5.0, 0.0],
-        [kalman.MATERN5, 1.2, 9.0, 0.0],
-        [kalman.OSCILLATOR, 0.7, 8.0, 3.0],
+        [components.DECAY, 0.5, 3.0, 0.0],
+        [components.MATERN3, 1.0, 5.0, 0.0],
+        [components.MATERN5, 1.2, 9.0, 0.0],
+        [components.OSCILLATOR, 0.7, 8.0, 3.0],
     ]
 )
 
@@ -20,12 +20,12 @@ PARTS = np.array(
 def covariance(part, D):
     """The kernel as textbooks print it."""
     kind, size, scale, quality = part
-    if kind == kalman.DECAY:
+    if kind == components.DECAY:
         k = np.exp(-D / scale)
-    elif kind == kalman.MATERN3:
+    elif kind == components.MATERN3:
         a = math.sqrt(3) * D / scale
         k = (1 + a) * np.exp(-a)
-    elif kind == kalman.MATERN5:
+    elif kind == components.MATERN5:
         a = math.sqrt(5) * D / scale
         k = (1 + a + a * a / 3) * np.exp(-a)
     else:
@@ -65,7 +65,7 @@ def test_curvature_is_the_derivative_of_the_kernel():
     rng, n = np.random.default_rng(2), 400
     dt = np.full(n, 0.05)
     t = np.cumsum(dt)
-    parts = np.array([[kalman.MATERN5, 1.0, 4.0, 0.0]])
+    parts = np.array([[components.MATERN5, 1.0, 4.0, 0.0]])
     y = np.sin(t) + 0.01 * rng.standard_normal(n)
     mean, _, _ = kalman.smooth(y, np.full(n, 1e-4), dt, parts, np.ones(1))
     inside = slice(40, -40)
