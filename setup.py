@@ -48,7 +48,7 @@ EXTRAS = {
         *sorted({*FIGURES, *OFFLINE, *SWEEP, *CLUSTER, *PEERS, *ROBOTS}),
     ],
     "lint": ["ruff", "mypy", "pre-commit"],
-    "docs": ["sphinx", "furo", "myst-parser", "sphinx-autoapi"],
+    "docs": ["sphinx", "furo", "myst-parser"],
     "bench": ["control"],
     "lock": ["uv"],  # what make installs with
 }

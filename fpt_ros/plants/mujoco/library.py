@@ -6,6 +6,7 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from fpt_ros.errors import BadInput
+from fpt_ros.extras import need
 from fpt_ros.foreign import address_of
 
 
@@ -34,13 +35,9 @@ def bindings() -> Any:
     Raises:
         BadInput: it is not installed.
     """
-    try:
-        import mujoco
-    except ImportError as error:
-        raise BadInput(
-            f"plant and model 'mujoco' need MuJoCo ({error}): pip install fpt_ros[robots], or pip "
-            "install mujoco"
-        ) from error
+    need("robots")
+    import mujoco
+
     return mujoco
 
 
