@@ -271,13 +271,13 @@ def test_damaged_chunk(recorded: Recorded, tmp_path: Path) -> None:
     with recorded.file.open("rb") as stream:
         summary = make_reader(stream).get_summary()
     assert summary is not None
-    second = sorted(index.chunk_start_offset for index in summary.chunk_indexes)[1]
-    whole[second + 2000] ^= 0xFF
+    broken = max(summary.chunk_indexes, key=lambda index: index.chunk_length).chunk_start_offset
+    whole[broken + 2000] ^= 0xFF
     path = tmp_path / "damaged.mcap"
     path.write_bytes(whole)
     run = reader.read_run(path)
     assert (run.info["complete"], run.info["reason"]) == ("false", "the recording is damaged")
-    assert f"the chunk at byte {second}, messages from " in run.info["missing"]
+    assert f"the chunk at byte {broken}, messages from " in run.info["missing"]
     found, whole_series = run.topics["joint_states"], recorded.topics["joint_states"]
     assert 0 < len(found.stamps) < 1000
     assert found.stamps[-1] == whole_series.stamps[-1]  # those behind the chunk are read too
@@ -348,7 +348,7 @@ def test_what_is_not_a_recording(tmp_path: Path) -> None:
     refuse(tmp_path, "is not an MCAP file: it has to be")
     path.unlink()
     path.mkdir()
-    refuse(tmp_path, "cannot be read: Is a directory")
+    refuse(tmp_path, "cannot be read: it is not a file")
 
 
 def test_recordings_of_something_else(tmp_path: Path) -> None:
