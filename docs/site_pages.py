@@ -46,14 +46,18 @@ def keep_sentence(
 
 
 def neighbour(sphinx: Any, environment: Any, node: Any, content: Any) -> Any:
-    """Find ``:mod:`healing``` or ``:func:`style.settings``` in the folder of the module itself."""
+    """Find ``:mod:`healing``` or ``:func:`style.settings``` in the folder of the module itself.
+
+    A bare name that has no entry (a constant without a sentence of its own) stays without a link.
+    """
     if node.get("refdomain") != "py" or node["reftype"] == "class":
         return None
     folder = node.get("py:module", "").rpartition(".")[0]
     target = f"{folder}.{node['reftarget']}"
-    return environment.domains["py"].resolve_xref(
+    found = environment.domains["py"].resolve_xref(
         environment, node["refdoc"], sphinx.builder, node["reftype"], target, node, content
     )
+    return found or (None if "." in node["reftarget"] else content)
 
 
 def write_pages() -> None:
