@@ -29,6 +29,7 @@ class Request:
             test signal (:mod:`~fpt_ros.denoising.noisy`).
         columns: names, or ``all``; where none is given the last one with numbers.
         topic, field: of a recording, as in ``/joint_states`` and ``position[2]``.
+        joint: of a recording, by name; ``field`` then is ``position``, without an index.
         time: name of the column of times, or ``none``; where it is not given it is looked for.
     """
 
@@ -37,6 +38,7 @@ class Request:
     topic: str | None = None
     field: str | None = None
     time: str | None = None
+    joint: str | None = None
 
 
 @dataclass(frozen=True)
@@ -70,25 +72,23 @@ def load(request: Request, done: Callable[[int], None] = lambda _: None) -> Sour
     Raises:
         BadInput: they cannot be read, or a column, topic or field is not there (lists what is).
     """
-    path, recorded = request.path, (request.topic, request.field) != (None, None)
+    path = request.path
+    recorded = (request.topic, request.field, request.joint) != (None, None, None)
     if str(path).startswith(PREFIX):
         if request.columns or recorded or request.time:
-            raise BadInput(f"{path} is one signal: it takes no --column, --topic, --field, --time")
+            raise BadInput(
+                f"{path} is one signal: it takes no --column, --topic, --field, --joint, --time"
+            )
         return _test_signal(str(path))
     if str(path) != STDIN and not path.exists():
         raise BadInput(
             f"{path} does not exist: it takes a table ({TAKES}), a recording, or a test signal, as "
             f"in {EXAMPLE}"
         )
-    if path.is_dir() or path.suffix in (".mcap", ".bag"):
+    if path.is_dir() or path.suffix in (".mcap", ".bag", ".db3"):
         return _recorded(request)
-    if path.suffix == ".db3":
-        raise BadInput(
-            f"{path} is a file of a recording: give its folder, {path.absolute().parent}, with "
-            "--topic and --field"
-        )
     if recorded:
-        raise BadInput("--topic and --field are for recordings: a table takes --column")
+        raise BadInput("--topic, --field and --joint are for recordings: a table takes --column")
     wanted = request.columns[0] if request.columns and ALL not in request.columns else None
     return _of_table(read(path, wanted, done), request)
 
@@ -100,7 +100,8 @@ def _recorded(request: Request) -> Source:
         raise BadInput(f"{request.path} is a recording: --topic and --field say which signal")
     if request.columns:
         raise BadInput(f"{request.path} is a recording: it takes --topic and --field, no --column")
-    return _of_table(read_recording(request.path, request.topic, request.field), request)
+    table = read_recording(request.path, request.topic, request.field, request.joint)
+    return _of_table(table, request)
 
 
 def _of_table(table: Table, request: Request) -> Source:

@@ -33,6 +33,10 @@ Time = Annotated[
 ]
 Topic = Annotated[str | None, typer.Option(metavar="T", help="Topic of a recording.")]
 Field = Annotated[str | None, typer.Option(metavar="F", help="Field, as in position[2].")]
+Joint = Annotated[
+    str | None,
+    typer.Option(metavar="NAME", help="Joint of a recording, by name; --field is its array."),
+]
 Method = Annotated[
     str, typer.Option(metavar="M", help="Method; auto weighs several by their risk.")
 ]
@@ -64,6 +68,7 @@ def denoise(
     time: Time = None,
     topic: Topic = None,
     field: Field = None,
+    joint: Joint = None,
     method: Method = "auto",
     set_: Settings = None,
     out: Out = None,
@@ -91,13 +96,15 @@ def denoise(
 
     Example: fpt denoise /tmp/tora --topic /joint_states --field position[2] --out q3.csv
 
+    Example: fpt denoise robot.mcap --topic /joint_states --field effort --joint elbow
+
     Example: fpt denoise test:sines,rho=0.5,seed=10 --method improved --plot sines.png
     """
     from fpt_ros.analysis.signal_source import Request
     from fpt_ros.cli.denoise_files import picture_path, targets, write
 
     target, pictures = targets(file, out, plot, compare, json)
-    request = Request(file, tuple(column or ()), topic, field, time)
+    request = Request(file, tuple(column or ()), topic, field, time, joint)
     source = _load(request)
     if compare:
         _compare(source, json)

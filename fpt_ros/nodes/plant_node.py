@@ -52,7 +52,11 @@ class PlantNode(ParameterisedNode):
             self.subscribe_raw(RECORDED_UNTIL, TIME, 1, self._on_recorded)
 
     def begin(self) -> None:
-        """Publish cycle 0; it waits, latched, for whoever is not there yet."""
+        """Publish cycle 0, where a recorder is awaited as soon as it says that it has begun."""
+        if not self._awaits_recorder:
+            self._start()  # it waits, latched, for whoever is not there yet
+
+    def _start(self) -> None:
         self._origin = time_ns() if self._realtime else 0
         self._publish_cycle()
 
@@ -136,6 +140,8 @@ class PlantNode(ParameterisedNode):
         return self._recorded < self._stamp - WINDOW * self.stage.cycle_time
 
     def _on_recorded(self, data: bytes) -> None:
+        if self._stamp < 0:
+            self._start()
         self._recorded = max(self._recorded, decode_time(data))
         if self._realtime:
             self._start_clock()

@@ -1,8 +1,8 @@
 """How the recorder tells the plant how far it has come: a stamp on a topic of its own.
 
 The recorder is not in the control loop, and publishers keep only the last messages. So the plant
-does not run more cycles ahead of the recorder than they keep: then nothing can be lost, neither at
-the start, while DDS discovers, nor under load.
+begins when the recorder has, and does not run more cycles ahead of it than they keep: then nothing
+can be lost, neither at the start, while DDS discovers, nor under load.
 """
 
 import struct
@@ -11,6 +11,9 @@ from fpt_ros.messages.frames import SECOND
 
 RECORDED_UNTIL = "recorded_until"
 TIME = "builtin_interfaces/msg/Time"
+
+BEGUN = -1
+"""In the place of a stamp: the recorder hears the whole loop, nothing is recorded yet [ns]."""
 
 _LAYOUT = struct.Struct("<4xiI")
 

@@ -1,8 +1,8 @@
 """The recorder: every message of every topic, as the bytes that came, into MCAP.
 
-It begins when it hears all nodes of the loop and knows the parameters that they really have; until
-then it does not tell the plant how far it has come (:mod:`fpt_ros.nodes.recorded_until`), which
-waits. What it has told is on disk, or in the hands of the operating system. It checks what it gets:
+It begins when it hears all nodes of the loop and knows the parameters that they really have;
+until then the plant waits, if it is told to (:mod:`fpt_ros.nodes.recorded_until`). What it says
+that it has is on disk, or in the hands of the operating system. It checks what it gets:
 message k of every loop topic carries the same stamp, or the recording is not complete.
 
 Where the recording cannot be written any more, the run goes on, and the recorder says so.
@@ -31,7 +31,7 @@ from fpt_ros.messages.frames import SECOND
 from fpt_ros.messages.topics import DEPTH, LOOP_TOPICS, TUNING
 from fpt_ros.nodes.loop_node import LoopNode, message_class
 from fpt_ros.nodes.qos import loop_qos
-from fpt_ros.nodes.recorded_until import RECORDED_UNTIL, TIME, encode_time
+from fpt_ros.nodes.recorded_until import BEGUN, RECORDED_UNTIL, TIME, encode_time
 from fpt_ros.nodes.ros_parameters import declare
 from fpt_ros.nodes.snapshot import Snapshot
 from fpt_ros.nodes.stage_node import CHANGES
@@ -202,6 +202,7 @@ class Recorder(LoopNode):
         if self._lost is None:
             self._writer.set_parameters(self._parameters)
         self._started = True
+        self._until.publish(encode_time(BEGUN))
 
     def _matched(self) -> bool:
         """Whether it hears all nodes: each loop topic, and all changes of parameters."""

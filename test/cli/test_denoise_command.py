@@ -44,6 +44,14 @@ def test_a_field_of_a_recording(tmp_path):
     topic = ("--topic", "joint_states", "--field", "position[2]")
     result = fpt_json("denoise", bag, *topic, "--method", "savgol", "--out", out)
     assert result["samples"] == 1000
+    by_name = ("--topic", "joint_states", "--field", "position", "--joint", "q3")
+    fpt_json("denoise", bag, *by_name, "--method", "savgol", "--out", tmp_path / "named.csv")
+    rows, named = (path.read_text().splitlines() for path in (out, tmp_path / "named.csv"))
+    assert named[0] == "time,joint_states.position.q3,healed,estimate"
+    assert named[1:] == rows[1:]
+    absent = fpt("denoise", bag, *by_name[:-1], "q9", "--out", out)
+    assert absent.returncode == 2
+    assert "q1, q2, q3" in absent.stderr
     missing = fpt("denoise", bag, "--topic", "nothing", "--field", "position[2]", "--out", out)
     assert missing.returncode == 2
     assert "/joint_states" in missing.stderr

@@ -139,7 +139,7 @@ def test_bad_options(run, arguments, said):
 
 def test_a_file_of_a_recording_is_told_what_it_takes(run):
     line = run(b"SQLite format 3\0", name="bag_0.db3", expected=2).err
-    assert "is a file of a recording: give its folder" in line
+    assert "bag_0.db3 is a recording: --topic and --field say which signal" in line
     assert len(line.splitlines()) == 1
 
 

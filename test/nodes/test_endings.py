@@ -69,7 +69,11 @@ def gone(children):
     return not alive
 
 
-@pytest.mark.parametrize("options", [(), ("--composed",), ("--realtime",)])
+REALTIME = ("--realtime", "--variant", "nonadaptive")
+"""On a busy machine cycles are missed, and the deformation then loses TORA before the interrupt."""
+
+
+@pytest.mark.parametrize("options", [(), ("--composed",), REALTIME])
 def test_interrupt(tmp_path, options):
     before = set(Path("/dev/shm").iterdir())
     process, children = under_way(tmp_path, *options)
