@@ -16,8 +16,7 @@ PARAMETERS = (Parameter("D", "how far the function is shifted to the left", 0.3)
 
 def fixed_point(D: float) -> float:
     """x* with tanh(x* + D) = 2 tanh x*: the only fixed point, attractive."""
-    padded = (0.0,) * sigmoid.FIRST + (D,)
-    return sigmoid.attractive_point(lambda x: generator(padded, x), 0.5 * D, f"D = {D:g}")
+    return sigmoid.attractive_point(lambda x: shifted(D, x), 0.5 * D, f"D = {D:g}")
 
 
 def prepare(values: Values) -> tuple[float, ...]:
@@ -27,9 +26,15 @@ def prepare(values: Values) -> tuple[float, ...]:
 
 
 @helper
+def shifted(D: float, x: float) -> float:
+    """F(x) = atanh(tanh(x + D) / 2)."""
+    return math.atanh(0.5 * math.tanh(x + D))
+
+
+@helper
 def generator(constants: Vector, x: float) -> float:
     """F(x)."""
-    return math.atanh(0.5 * math.tanh(x + constants[5]))
+    return shifted(constants[5], x)
 
 
 def derivative(constants: Vector, x: float) -> float:

@@ -15,7 +15,7 @@ import math
 from fpt_ros.laws import MutableVector, Vector
 from fpt_ros.parameters import Parameter, Values, flag, integer, number
 from fpt_ros.transformations import TINY
-from fpt_ros.transformations.atanh import fixed_point, generator
+from fpt_ros.transformations.atanh import fixed_point, shifted
 from fpt_ros.tuning import Seen, TuningLaw
 
 PARAMETERS = (
@@ -29,7 +29,7 @@ PARAMETERS = (
 
 
 def prepare(values: Values) -> tuple[float, ...]:
-    """Constants (alpha, A, steps, x*, D at the place where F has it, warm, scaled)."""
+    """Constants (alpha, A, steps, x*, D, warm, scaled)."""
     D = number(values, "inner_D")
     steps = float(integer(values, "inner_steps"))
     warm, scaled = float(flag(values, "warm")), float(flag(values, "scaled"))
@@ -47,7 +47,7 @@ def update(
 ) -> None:
     """Inner iteration, then one Euler step of the coefficients."""
     Y, error = seen.Y, seen.error
-    alpha, A, attractive = constants[0], constants[1], constants[3]
+    alpha, A, attractive, D = constants[0], constants[1], constants[3], constants[4]
     rows, size = len(error), len(values)
     w, M, e = 2, 2 + rows, 2 + rows + rows * rows
     norm_M, known = 0.0, 0.0
@@ -74,7 +74,7 @@ def update(
             square += x * x
         residual = math.sqrt(square)
         if step < steps and residual > TINY:
-            factor = (generator(constants, gain * residual + attractive) - attractive) / residual
+            factor = (shifted(D, gain * residual + attractive) - attractive) / residual
             for i in range(rows):
                 memory[w + i] += factor * memory[e + i]
     memory[0], memory[1] = math.sqrt(known), residual

@@ -6,7 +6,7 @@ from fpt_ros.analysis import style
 from fpt_ros.parameters import Value
 from fpt_ros.runs.run import Array, Run
 from fpt_ros.thesis import drawings as draw
-from fpt_ros.thesis.chapter3.s3_1_1_fixed_points import D, K
+from fpt_ros.thesis.chapter3.s3_1_1_fixed_points import CONSTANTS, D, K
 from fpt_ros.thesis.claim import NO, YES, Claim, Drawn, Picture, Verdict
 from fpt_ros.thesis.measures import complete, end, norms, responses
 from fpt_ros.thesis.setup import Runs, Setup
@@ -60,7 +60,7 @@ def _fast_monotone(runs: Runs) -> Verdict:
             "changes of the sign of h": float(changes),
         },
         f"Faster, but not monotone: h goes {first}, ... It is monotone up to A = -1/F'(x*) = "
-        f"{-1.0 / sgfpt.derivative((0.0,) * 4 + (K, D), sgfpt.fixed_points(K, D)[0]):.4g}.",
+        f"{-1.0 / sgfpt.derivative(CONSTANTS, sgfpt.fixed_points(K, D)[0]):.4g}.",
     )
 
 
@@ -109,7 +109,7 @@ def _bounded_chaos(runs: Runs) -> Verdict:
 
 
 def _slope(u: float) -> float:
-    return sgfpt.derivative((0.0,) * 4 + (K, D), u + sgfpt.fixed_points(K, D)[0])
+    return sgfpt.derivative(CONSTANTS, u + sgfpt.fixed_points(K, D)[0])
 
 
 def bifurcation_figure(runs: Runs) -> Drawn:

@@ -6,20 +6,21 @@ from fpt_ros.analysis import style
 from fpt_ros.thesis import drawings as draw
 from fpt_ros.thesis.claim import NO, ONLY_IF, YES, Claim, Drawn, Picture, Verdict
 from fpt_ros.thesis.setup import Runs
-from fpt_ros.transformations import sgfpt
+from fpt_ros.transformations import sgfpt, sigmoid
 
 K, D = 0.5, 0.6
+CONSTANTS = (0.0,) * sigmoid.FIRST + (K, D)
 PRINTED = 0.7114269142
 
 
 def generator(x: float) -> float:
     """The function of Figs 3.1-3.3."""
-    return sgfpt.generator((0.0, 0.0, 0.0, 0.0, K, D), x)
+    return sgfpt.generator(CONSTANTS, x)
 
 
 def _two_fixed_points(runs: Runs) -> Verdict:
     attractive, repulsive = sgfpt.fixed_points(K, D)
-    slopes = [sgfpt.derivative((0.0, 0.0, 0.0, 0.0, K, D), x) for x in (attractive, repulsive)]
+    slopes = [sgfpt.derivative(CONSTANTS, x) for x in (attractive, repulsive)]
     x = 0.0
     for _ in range(18):
         x = generator(x)
