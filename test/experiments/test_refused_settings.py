@@ -83,7 +83,7 @@ def test_a_setting_has_a_form(setting):
         ("trajectory_generator.amplitude=[1.0]", "amplitude: 1 given, 2 needed (q3, q2)"),
         ("trajectory_generator.frequency=[]", "frequency: 0 given, 2 needed (q3, q2)"),
         ("trajectory_generator.lambda=0", "it takes a number > 0 [1/s]"),
-        ("trajectory_generator.error_relaxation=p", "none of the relaxations: pd, pi, pid, value"),
+        ("trajectory_generator.error_relaxation=p", "none of the relaxations: feedback_pd, "),
         ("trajectory_generator.controlled=[q1, q2]", "response of 'q1', only of q2, q3"),
         ("trajectory_generator.controlled=[q2, q2]", "it takes one or more different coordinates"),
         ("trajectory_generator.controlled=[]", "it takes one or more different coordinates"),

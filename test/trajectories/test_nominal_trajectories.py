@@ -26,7 +26,8 @@ def nominal(name, amplitude, frequency, t, **own):
 
 def test_all_registered_trajectories_are_tested_here():
     here = {"constant", "cosines", "sine", "spline"}
-    assert set(TRAJECTORIES.names()) == here | {"fitzhugh_nagumo"}  # in a file of its own
+    elsewhere = {"fitzhugh_nagumo", "blended_sines"}  # in files of their own
+    assert set(TRAJECTORIES.names()) == here | elsewhere
 
 
 @settings(deadline=None)

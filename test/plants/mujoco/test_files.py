@@ -100,6 +100,6 @@ def test_without_mujoco_it_says_what_to_install(monkeypatch):
 
     monkeypatch.setitem(sys.modules, "mujoco", None)
     library.bindings.cache_clear()
-    with pytest.raises(BadInput, match=r"pip install fpt_ros\[robots\]"):
+    with pytest.raises(BadInput, match=r"pip install 'fpt_ros\[robots\]'"):
         library.bindings()
     library.bindings.cache_clear()
