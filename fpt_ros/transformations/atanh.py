@@ -10,6 +10,7 @@ import math
 from fpt_ros.laws import Vector, helper
 from fpt_ros.parameters import Parameter, Values, number
 from fpt_ros.transformations import sigmoid
+from fpt_ros.transformations.sigmoid import FIRST
 
 PARAMETERS = (Parameter("D", "how far the function is shifted to the left", 0.3),)
 
@@ -34,12 +35,12 @@ def shifted(D: float, x: float) -> float:
 @helper
 def generator(constants: Vector, x: float) -> float:
     """F(x)."""
-    return shifted(constants[5], x)
+    return shifted(constants[FIRST], x)
 
 
 def derivative(constants: Vector, x: float) -> float:
     """F'(x) = (1 - y^2) / 2 / (1 - y^2 / 4), y = tanh(x + D)."""
-    y = math.tanh(x + constants[5])
+    y = math.tanh(x + constants[FIRST])
     return 0.5 * (1.0 - y * y) / (1.0 - 0.25 * y * y)
 
 

@@ -15,6 +15,7 @@ from fpt_ros.errors import BadInput
 from fpt_ros.laws import Vector, helper
 from fpt_ros.parameters import Parameter, Values, flag, number
 from fpt_ros.transformations import sigmoid
+from fpt_ros.transformations.sigmoid import FIRST
 
 PARAMETERS = (
     Parameter("K", "how far the graph of tanh is shifted down", 0.5, above=0.0, maximum=2.0),
@@ -52,14 +53,14 @@ def prepare(values: Values) -> tuple[float, ...]:
 @helper
 def generator(constants: Vector, x: float) -> float:
     """F(x) = atanh(tanh x - K) + D; NaN outside its domain."""
-    y = math.tanh(x) - constants[5]
-    return math.atanh(y) + constants[6] if -1.0 < y < 1.0 else math.nan
+    y = math.tanh(x) - constants[FIRST]
+    return math.atanh(y) + constants[FIRST + 1] if -1.0 < y < 1.0 else math.nan
 
 
 def derivative(constants: Vector, x: float) -> float:
     """F'(x) = (1 - tanh^2 x) / (1 - (tanh x - K)^2)."""
     y = math.tanh(x)
-    return (1.0 - y * y) / (1.0 - (y - constants[5]) * (y - constants[5]))
+    return (1.0 - y * y) / (1.0 - (y - constants[FIRST]) * (y - constants[FIRST]))
 
 
 SGFPT = sigmoid.transformation(generator, PARAMETERS, prepare, derivative)

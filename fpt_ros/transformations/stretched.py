@@ -9,6 +9,7 @@ import math
 from fpt_ros.laws import Vector, helper
 from fpt_ros.parameters import Parameter, Values, number
 from fpt_ros.transformations import sigmoid
+from fpt_ros.transformations.sigmoid import FIRST
 
 PARAMETERS = (
     Parameter("B", "height of the sigmoid", 2.0, above=0.0),
@@ -21,7 +22,7 @@ PARAMETERS = (
 def prepare(values: Values) -> tuple[float, ...]:
     """Own constants (B, a, b, K)."""
     own = tuple(number(values, parameter.name) for parameter in PARAMETERS)
-    padded = (0.0,) * sigmoid.FIRST + own
+    padded = (0.0,) * FIRST + own
     what = ", ".join(f"{p.name} = {x:g}" for p, x in zip(PARAMETERS, own, strict=True))
     start = own[0] + own[3]
     attractive = sigmoid.attractive_point(lambda x: generator(padded, x), start, what)
@@ -31,13 +32,16 @@ def prepare(values: Values) -> tuple[float, ...]:
 @helper
 def generator(constants: Vector, x: float) -> float:
     """F(x)."""
-    return constants[5] * math.tanh(constants[6] * (x + constants[7])) + constants[8]
+    return (
+        constants[FIRST] * math.tanh(constants[FIRST + 1] * (x + constants[FIRST + 2]))
+        + constants[FIRST + 3]
+    )
 
 
 def derivative(constants: Vector, x: float) -> float:
     """F'(x) = a B (1 - tanh^2(a (x + b)))."""
-    y = math.tanh(constants[6] * (x + constants[7]))
-    return constants[5] * constants[6] * (1.0 - y * y)
+    y = math.tanh(constants[FIRST + 1] * (x + constants[FIRST + 2]))
+    return constants[FIRST] * constants[FIRST + 1] * (1.0 - y * y)
 
 
 STRETCHED = sigmoid.transformation(generator, PARAMETERS, prepare, derivative)

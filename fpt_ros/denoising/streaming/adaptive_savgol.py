@@ -14,6 +14,7 @@ import math
 
 from fpt_ros.denoising.offline.savgol import check, kernel
 from fpt_ros.denoising.streaming import ORDER, Filter
+from fpt_ros.denoising.streaming.three_states import response_of
 from fpt_ros.errors import BadInput
 from fpt_ros.laws import MutableVector, Vector
 from fpt_ros.parameters import Parameter, Values, integer, number, numbers
@@ -165,11 +166,7 @@ def update(
             at += _MEMBER + 4 * window
         out_q[c] = newest + position / total
         out_v[c] = velocity / total
-        out_response[c] = acceleration / total
-        if order == 1.0:
-            out_response[c] = out_v[c]
-        elif order == 0.0:
-            out_response[c] = out_q[c]
+        out_response[c] = response_of(order, out_q[c], out_v[c], acceleration / total)
         ring = first + 2 * members
 
 

@@ -15,6 +15,7 @@ A sample that is not finite is missing: the filter predicts.
 import math
 
 from fpt_ros.denoising.streaming import ORDER, Filter
+from fpt_ros.denoising.streaming.three_states import response_of, start, state_size
 from fpt_ros.laws import MutableVector, Vector
 from fpt_ros.parameters import Parameter, Values, integer, number
 
@@ -35,19 +36,6 @@ def prepare(values: Values, n: int, dt: float) -> tuple[float, ...]:
         0.5 * rest * rest * rest,
         float(integer(values, ORDER.name)),
     )
-
-
-def state_size(constants: Vector, n: int) -> int:
-    """Position, velocity and acceleration."""
-    return 3 * n
-
-
-def start(constants: Vector, state: MutableVector, q: Vector, v: Vector) -> None:
-    """At rest where it is."""
-    for c in range(len(q)):
-        for i in range(3):
-            state[3 * c + i] = 0.0
-        state[3 * c] = q[c]
 
 
 def update(
@@ -71,11 +59,8 @@ def update(
             state[x] += alpha * residual
             state[x + 1] += beta / dt * residual
             state[x + 2] += 2.0 * gamma / (dt * dt) * residual
-        out_q[c], out_v[c], out_response[c] = state[x], state[x + 1], state[x + 2]
-        if order == 1.0:
-            out_response[c] = out_v[c]
-        elif order == 0.0:
-            out_response[c] = out_q[c]
+        out_q[c], out_v[c] = state[x], state[x + 1]
+        out_response[c] = response_of(order, state[x], state[x + 1], state[x + 2])
 
 
 ALPHA_BETA_GAMMA = Filter(prepare, state_size, start, update, PARAMETERS)

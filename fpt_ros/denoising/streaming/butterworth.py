@@ -11,6 +11,7 @@ A sample that is not finite is missing: the last output stands in for it.
 import math
 
 from fpt_ros.denoising.streaming import ORDER, Filter
+from fpt_ros.denoising.streaming.three_states import response_of
 from fpt_ros.errors import BadInput
 from fpt_ros.laws import MutableVector, Vector
 from fpt_ros.parameters import Parameter, Values, integer, number
@@ -70,12 +71,10 @@ def update(
         state[x] = 2.0 * b * y - constants[1] * value + state[x + 1]
         state[x + 1] = b * y - constants[2] * value
         velocity = (value - state[x + 2]) / dt
-        out_q[c], out_v[c], out_response[c] = value, velocity, (velocity - state[x + 3]) / dt
+        acceleration = (velocity - state[x + 3]) / dt
+        out_q[c], out_v[c] = value, velocity
+        out_response[c] = response_of(order, value, velocity, acceleration)
         state[x + 2], state[x + 3] = value, velocity
-        if order == 1.0:
-            out_response[c] = out_v[c]
-        elif order == 0.0:
-            out_response[c] = out_q[c]
 
 
 BUTTERWORTH = Filter(prepare, state_size, start, update, PARAMETERS)

@@ -13,6 +13,7 @@ A sample that is not finite is missing: the observer predicts.
 import math
 
 from fpt_ros.denoising.streaming import ORDER, Filter
+from fpt_ros.denoising.streaming.three_states import response_of, start, state_size
 from fpt_ros.laws import MutableVector, Vector
 from fpt_ros.parameters import Parameter, Values, integer, number
 
@@ -30,19 +31,6 @@ def prepare(values: Values, n: int, dt: float) -> tuple[float, ...]:
         rest * rest * rest,
         float(integer(values, ORDER.name)),
     )
-
-
-def state_size(constants: Vector, n: int) -> int:
-    """Predicted position, velocity and acceleration."""
-    return 3 * n
-
-
-def start(constants: Vector, state: MutableVector, q: Vector, v: Vector) -> None:
-    """At rest where it is."""
-    for c in range(len(q)):
-        for i in range(3):
-            state[3 * c + i] = 0.0
-        state[3 * c] = q[c]
 
 
 def update(
@@ -63,14 +51,11 @@ def update(
         if e - e != 0.0:
             e = 0.0
         value, velocity, acceleration = state[x], state[x + 1], state[x + 2]
-        out_q[c], out_v[c], out_response[c] = value, velocity, acceleration
+        out_q[c], out_v[c] = value, velocity
+        out_response[c] = response_of(order, value, velocity, acceleration)
         state[x] = value + dt * (velocity + 0.5 * dt * acceleration) + constants[0] * e
         state[x + 1] = velocity + dt * acceleration + constants[1] / dt * e
         state[x + 2] = acceleration + constants[2] / (dt * dt) * e
-        if order == 1.0:
-            out_response[c] = out_v[c]
-        elif order == 0.0:
-            out_response[c] = out_q[c]
 
 
 HIGH_GAIN = Filter(prepare, state_size, start, update, PARAMETERS)

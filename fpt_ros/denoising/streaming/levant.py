@@ -16,6 +16,7 @@ A sample that is not finite is missing: the differentiator predicts.
 import math
 
 from fpt_ros.denoising.streaming import ORDER, Filter
+from fpt_ros.denoising.streaming.three_states import response_of, start, state_size
 from fpt_ros.laws import MutableVector, Vector
 from fpt_ros.parameters import Parameter, Values, integer, number
 
@@ -26,19 +27,6 @@ def prepare(values: Values, n: int, dt: float) -> tuple[float, ...]:
     """Constants: L, L^(1/2), L^(1/3), order of the response."""
     jerk = number(values, "jerk")
     return (jerk, math.sqrt(jerk), jerk ** (1.0 / 3.0), float(integer(values, ORDER.name)))
-
-
-def state_size(constants: Vector, n: int) -> int:
-    """z0, z1 and z2."""
-    return 3 * n
-
-
-def start(constants: Vector, state: MutableVector, q: Vector, v: Vector) -> None:
-    """At rest where it is."""
-    for c in range(len(q)):
-        for i in range(3):
-            state[3 * c + i] = 0.0
-        state[3 * c] = q[c]
 
 
 def update(
@@ -64,14 +52,11 @@ def update(
             first = 2.0 * constants[2] * root * root * sign
             second = 1.5 * constants[1] * math.sqrt(first * sign) * sign
             third = 1.1 * constants[0] * sign
-        out_q[c], out_v[c], out_response[c] = z0, z1, z2
+        out_q[c], out_v[c] = z0, z1
+        out_response[c] = response_of(order, z0, z1, z2)
         state[x] = z0 + dt * (z1 - first + 0.5 * dt * z2)
         state[x + 1] = z1 + dt * (z2 - second)
         state[x + 2] = z2 - dt * third
-        if order == 1.0:
-            out_response[c] = out_v[c]
-        elif order == 0.0:
-            out_response[c] = out_q[c]
 
 
 LEVANT = Filter(prepare, state_size, start, update, PARAMETERS)

@@ -13,6 +13,7 @@ A sample that is not finite is missing: the position goes on with the speed.
 import math
 
 from fpt_ros.denoising.streaming import ORDER, Filter
+from fpt_ros.denoising.streaming.three_states import response_of
 from fpt_ros.laws import MutableVector, Vector
 from fpt_ros.parameters import Parameter, Values, integer, number
 
@@ -70,11 +71,8 @@ def update(
         state[x], state[x + 2] = y, speed
         rate = (constants[0] + constants[1] * math.fabs(speed)) * dt
         state[x + 1] += rate / (1.0 + rate) * (y - state[x + 1])
-        out_q[c], out_v[c], out_response[c] = state[x + 1], speed, state[x + 3]
-        if order == 1.0:
-            out_response[c] = out_v[c]
-        elif order == 0.0:
-            out_response[c] = out_q[c]
+        out_q[c], out_v[c] = state[x + 1], speed
+        out_response[c] = response_of(order, state[x + 1], speed, state[x + 3])
 
 
 ONE_EURO = Filter(prepare, state_size, start, update, PARAMETERS)

@@ -10,6 +10,7 @@ A sample that is NaN is missing: what the last fit expects takes its place.
 
 from fpt_ros.denoising.offline.savgol import check, kernel
 from fpt_ros.denoising.streaming import ORDER, Filter
+from fpt_ros.denoising.streaming.three_states import response_of
 from fpt_ros.laws import MutableVector, Vector
 from fpt_ros.parameters import Parameter, Values, integer
 
@@ -90,11 +91,7 @@ def update(
         state[ring - 1] = position + dt * (velocity + 0.5 * dt * acceleration)
         out_q[c] = position
         out_v[c] = velocity
-        out_response[c] = acceleration
-        if order == 1.0:
-            out_response[c] = velocity
-        elif order == 0.0:
-            out_response[c] = position
+        out_response[c] = response_of(order, position, velocity, acceleration)
     state[0] = float(head + 1 if head + 1 < window else 0)
 
 

@@ -21,6 +21,7 @@ import pywt
 from fpt_ros.denoising.offline.savgol import check
 from fpt_ros.denoising.streaming import ORDER, Filter
 from fpt_ros.denoising.streaming.savgol import end_kernels
+from fpt_ros.denoising.streaming.three_states import response_of
 from fpt_ros.errors import BadInput
 from fpt_ros.laws import MutableVector, Vector, helper
 from fpt_ros.parameters import Parameter, Values, integer, number, word
@@ -196,11 +197,7 @@ def update(
             k += 1
         state[ring - 1] = out_q[c] = newest + position
         out_v[c] = velocity
-        out_response[c] = acceleration
-        if order == 1.0:
-            out_response[c] = out_v[c]
-        elif order == 0.0:
-            out_response[c] = out_q[c]
+        out_response[c] = response_of(order, out_q[c], velocity, acceleration)
     state[0] = float(head + 1 if head + 1 < window else 0)
 
 
