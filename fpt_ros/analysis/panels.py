@@ -60,7 +60,6 @@ class Panels:
         self._extremes: dict[tuple[str, int], float] = {}
         self._notes: dict[tuple[str, int], str] = {}
         self._scales: dict[tuple[str, int], tuple[str, int]] = {}
-        self._beyond: list[str] = []
         self.remarks: list[str] = []
 
     @property

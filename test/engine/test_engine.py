@@ -6,6 +6,7 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 from engine_runs import stage_by_stage
+from frames_collected import Collector
 
 from fpt_ros.engine import compiled
 from fpt_ros.engine import engine as engine_module
@@ -13,7 +14,6 @@ from fpt_ros.engine.engine import Engine
 from fpt_ros.errors import Diverged
 from fpt_ros.experiments import experiment
 from fpt_ros.runs.chunks import frames
-from fpt_ros.runs.run import Collector
 
 CYCLES = 400
 

@@ -11,12 +11,12 @@ import numpy as np
 import own_package
 import pytest
 from engine_runs import stage_by_stage
+from frames_collected import Collector
 
 from fpt_ros import foreign, registry
 from fpt_ros.engine.engine import Engine
 from fpt_ros.errors import BadInput
 from fpt_ros.experiments import experiment
-from fpt_ros.runs.run import Collector
 
 COMPILER = shutil.which("gcc") or shutil.which("cc")
 pytestmark = pytest.mark.skipif(COMPILER is None, reason="there is no C compiler")

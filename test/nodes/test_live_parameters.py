@@ -5,13 +5,13 @@ import signal
 import numpy as np
 from command import fpt_json, start_fpt
 from engine_runs import stage_by_stage
+from frames_collected import Collector
 from mcap_ros2.reader import read_ros2_messages
 from watcher import watcher
 
 from fpt_ros.bags.reader import read_run
 from fpt_ros.experiments import experiment
 from fpt_ros.messages.topics import DESIRED
-from fpt_ros.runs.run import Collector
 
 LONG = 1000
 

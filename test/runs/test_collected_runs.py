@@ -5,13 +5,14 @@ import math
 import numpy as np
 import pytest
 from engine_runs import stage_by_stage, topics_of
+from frames_collected import Collector
 
 from fpt_ros.engine.engine import Engine
 from fpt_ros.experiments import experiment
 from fpt_ros.messages.frames import Desired, Tuning
 from fpt_ros.messages.topics import DESIRED, LOOP_TOPICS, TUNING
 from fpt_ros.runs.chunks import frames
-from fpt_ros.runs.run import Collector, Run, describe
+from fpt_ros.runs.run import Run, describe
 
 NAN = math.nan
 
