@@ -30,13 +30,32 @@ def fpt_json(*arguments, **options):
     return json.loads(done.stdout)
 
 
+STARTED = []
+"""By the test that runs: a test that fails must not leave its graph to the next one's domain."""
+
+
 def start_fpt(*arguments):
-    return subprocess.Popen(
+    process = subprocess.Popen(
         [BIN / "fpt", *map(str, arguments)],
         stdout=subprocess.PIPE,
         stderr=subprocess.PIPE,
         text=True,
     )
+    STARTED.append(process)
+    return process
+
+
+def end_started():
+    """End what the test left running."""
+    while STARTED:
+        process = STARTED.pop()
+        if process.poll() is None:
+            process.terminate()
+            try:
+                process.communicate(timeout=TIMEOUT)
+            except subprocess.TimeoutExpired:
+                process.kill()
+                process.communicate()
 
 
 @cache

@@ -4,6 +4,7 @@ import fcntl
 import tempfile
 from pathlib import Path
 
+import command
 import made_runs
 import pytest
 import samples
@@ -38,6 +39,7 @@ def ros_domain(monkeypatch):
             monkeypatch.setenv("ROS_DOMAIN_ID", str(domain))
             monkeypatch.setenv("ROS_AUTOMATIC_DISCOVERY_RANGE", "LOCALHOST")
             yield domain
+            command.end_started()  # before another test may have the domain
             return
     pytest.fail("all ROS domains are in use by other tests")
 

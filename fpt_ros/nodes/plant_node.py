@@ -8,6 +8,8 @@ command acts, or the safe effort where it is older than ``command_timeout``.
 from collections import deque
 from time import monotonic, time_ns
 
+from rclpy.duration import Duration
+
 from fpt_ros.cycle.plant_simulator import PlantSimulator
 from fpt_ros.errors import BadInput, RunFailed
 from fpt_ros.messages.cdr import Codec, MalformedMessage
@@ -24,6 +26,9 @@ WINDOW = DEPTH * 3 // 4
 
 REMEMBERED = 1024
 """Cycles whose command may still come and be timed."""
+
+LAST_REPORT = Duration(seconds=2)
+"""How long the last report waits for those who hear it, the recorder among them."""
 
 
 class PlantNode(ParameterisedNode):
@@ -164,9 +169,10 @@ class PlantNode(ParameterisedNode):
             )
 
     def _report_last(self) -> None:
-        """Diagnostics of the last cycles, for which no second is left."""
+        """Diagnostics of the last cycles, for which no second is left; this process ends next."""
         since, cycles = self._reported
         self._publish_diagnostics((self.cycles_done - cycles) / (monotonic() - since))
+        self._diagnostics.wait_for_all_acked(LAST_REPORT)
 
     def health(self) -> tuple[str, dict[str, object]]:
         """State of the run; in real time misses, and latencies from sensor to command [ms]: of

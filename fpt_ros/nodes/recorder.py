@@ -18,6 +18,7 @@ from functools import reduce
 from pathlib import Path
 
 from diagnostic_msgs.msg import DiagnosticStatus
+from rclpy.subscription import Subscription
 
 from fpt_ros import __version__
 from fpt_ros.bags.split import Split
@@ -47,6 +48,9 @@ SIDE_TOPICS = {
     CHANGES: "rcl_interfaces/msg/ParameterEvent",
 }
 """Recorded as they come; no cycle depends on them."""
+
+SIDE_DEPTH = 1000
+"""Messages of a side topic that may wait to be recorded."""
 
 NICE = 10
 """In real time the loop comes first: misses with a recorder were down by a third to a half."""
@@ -94,6 +98,7 @@ class Recorder(LoopNode):
         self._lost: RunFailed | None = None
         self._snapshot: Snapshot | None = None
         self._started = False
+        self._side_subscriptions: list[tuple[Subscription, Callable[[bytes], None]]] = []
         self._until = self.create_publisher(message_class(TIME), RECORDED_UNTIL, loop_qos(1))
         for topic in LOOP_TOPICS:
             if topic != TUNING or values.get("await_tuning") is True:
@@ -175,8 +180,9 @@ class Recorder(LoopNode):
             self._write(resolved, kind, stamp, data)
 
         # /rosout is latched: what was said before we came is recorded too
-        qos = loop_qos(1000) if name == "/rosout" else 100
+        qos = loop_qos(SIDE_DEPTH) if name == "/rosout" else SIDE_DEPTH
         subscription = self.create_subscription(message_class(kind), name, record, qos, raw=True)
+        self._side_subscriptions.append((subscription, record))
         if name == CHANGES:
             self._changes = subscription
 
@@ -217,6 +223,15 @@ class Recorder(LoopNode):
                 found[f"{about.node_namespace.rstrip('/')}/{about.node_name}"] = None
         return list(found)
 
+    def _take_what_has_come(self) -> None:
+        """Side topics are looked at now and then: the last reports of the others wait unread."""
+        for subscription, record in self._side_subscriptions:
+            for _ in range(SIDE_DEPTH):
+                taken = subscription.handle.take_message(subscription.msg_type, True)
+                if taken is None:
+                    break
+                record(taken[0])
+
     def close(self) -> None:
         """Finish the file; say why, if the run did not end by itself.
 
@@ -224,6 +239,7 @@ class Recorder(LoopNode):
             RunFailed: the recording could not be written to the end.
         """
         error = sys.exc_info()[1]
+        self._take_what_has_come()
         reason = _reason() or (str(error) if error is not None else "")
         if self._lost is not None:
             raise self._lost

@@ -80,6 +80,7 @@ def test_bad_values_are_refused_with_a_reason_and_the_run_is_unharmed(tmp_path):
             assert reason in why, (name, why)
         assert graph.get_parameter("fpt_deformer", "K") == 0.5
         graph.wait_for_next()
+        graph.wait_for_stamp(0.6)
     cycles = interrupted(process, bag)
     engine_bag = tmp_path / "engine"
     fpt_json("simulate", "tora", "--duration", cycles / 1000, "--record", engine_bag)
