@@ -23,14 +23,20 @@ CHANGES = {
         0: {"fpt_deformer": {"A": -0.15}},
         40: {"fpt_deformer": {"A": -0.2, "approximate.m": 11.0}},
         41: {"trajectory_generator": {"lambda": 5.0}},
-        60: {"plant_simulator": {"exact.m": 21.0}, "trajectory_generator": {"amplitude": [0.2, 0.4]}},
+        60: {
+            "plant_simulator": {"exact.m": 21.0},
+            "trajectory_generator": {"amplitude": [0.2, 0.4]},
+        },
     },
     "vdp_rfpt": {30: {"parameter_tuner": {"alpha": 2.0}, "fpt_deformer": {"A": 2e-6}}},
-    "noisy_tora": {30: {"plant_simulator": {"noise.position": 2e-5}}, 50: {"fpt_deformer": {"A": -1.0}}},
+    "noisy_tora": {
+        30: {"plant_simulator": {"noise.position": 2e-5}},
+        50: {"fpt_deformer": {"A": -1.0}},
+    },
     "cart_beam_hamper": {30: {"fpt_deformer": {"A": 2e-8}, "parameter_tuner": {"epsilon": 2.0}}},
     "swing": {},
     "tora_auto": {20: {"parameter_tuner": {"precursor_guard": True}}},
-}  # fmt: skip
+}
 CYCLES = 120
 
 
@@ -128,8 +134,7 @@ def test_cut_and_flipped_anywhere(tmp_path: Path) -> None:
         try:
             run = Recorded(path)
             found = [Replay(run, "fpt_deformer").run(), *rerun(run).values()]
-        except BadInput as error:
-            assert "\n" not in str(error)
+        except BadInput:
             continue
         assert run.missing, at
         assert not run.complete, at
