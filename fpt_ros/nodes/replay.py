@@ -112,7 +112,9 @@ class _ReplayNode(LoopNode):
             topic.name: self.create_publisher(message_class(topic.type), topic.name, loop_qos())
             for topic in inputs
         }
-        self._until = self.create_publisher(message_class(TIME), RECORDED_UNTIL, loop_qos(1))
+        self._until = None
+        if isinstance(stage, PlantSimulator):  # it may wait for a recorder
+            self._until = self.create_publisher(message_class(TIME), RECORDED_UNTIL, loop_qos(1))
         self.subscribe_raw(stage.output.name, stage.output.type, DEPTH, self._on_answer)
         self._set = self.create_client(SetParameters, f"{replay.node}/set_parameters")
         self._changes = deque(sorted(replay.changes, key=lambda change: change.stamp))
@@ -124,7 +126,7 @@ class _ReplayNode(LoopNode):
     def _steps(self) -> Iterator[Wait]:
         """All that is to be done, and waited for."""
         yield Wait(self._matched, f"there is no node {self._node} that listens: start it first")
-        self._until.publish(encode_time(BEGUN))  # a plant may wait for a recorder
+        self._acknowledge(BEGUN)
         origin, first = monotonic(), -1
         for cycle in self._recorded.cycles():
             first = cycle.stamp if first < 0 else first
@@ -149,7 +151,7 @@ class _ReplayNode(LoopNode):
             if not self._before:
                 yield from self._change(cycle.stamp)
             self._publish(cycle, self._behind)
-            self._until.publish(encode_time(cycle.stamp))
+            self._acknowledge(cycle.stamp)
             self._progress(cycle.number + 1)
         last = monotonic()
         yield Wait(lambda: not self._expected or monotonic() > last + LAST_ANSWERS)
@@ -160,6 +162,10 @@ class _ReplayNode(LoopNode):
         for topic in topics:
             if topic.name in cycle.messages:
                 self._inputs[topic.name].publish(cycle.messages[topic.name])
+
+    def _acknowledge(self, stamp: int) -> None:
+        if self._until is not None:
+            self._until.publish(encode_time(stamp))
 
     def _change(self, stamp: int) -> Iterator[Wait]:
         """Set what changed in this cycle; the node puts it into force when it acts next."""
