@@ -27,7 +27,7 @@ def effort(model, q, v, a, s):
     return np.array(out)
 
 
-def Y(model, q, v, w, a):
+def matrix(model, q, v, w, a):
     out = [np.nan] * (len(q) * len(model.coefficient_names))
     model.regressor(model.coefficients(()), *map(list, (q, v, w, a)), out)
     return np.array(out).reshape(len(q), -1)
@@ -48,7 +48,7 @@ def test_at_the_velocity_itself_it_is_the_inverse_dynamics_of_pinocchio(arm):
         q, v, a = rng.uniform(-3, 3, (3, n))
         expected = pin.rnea(theirs, data, q, v, a)
         assert np.abs(effort(model, q, v, a, np.zeros(n)) - expected).max() < 1e-9
-        assert np.abs(Y(model, q, v, v, a) @ theta(model) - expected).max() < 1e-9
+        assert np.abs(matrix(model, q, v, v, a) @ theta(model) - expected).max() < 1e-9
 
 
 def test_a_tree_with_a_joint_that_slides(tmp_path):
@@ -79,10 +79,10 @@ def test_half_the_change_of_m_is_c(tmp_path, file):
 
         def weight(a, q, zero=zero):
             """M a."""
-            return (Y(model, q, zero, zero, a) - Y(model, q, zero, zero, zero)) @ own
+            return (matrix(model, q, zero, zero, a) - matrix(model, q, zero, zero, zero)) @ own
 
         changed = (weight(x, q + step * v) - weight(x, q - step * v)) / (2.0 * step)
-        C_x = (Y(model, q, v, x, zero) - Y(model, q, zero, zero, zero)) @ own
+        C_x = (matrix(model, q, v, x, zero) - matrix(model, q, zero, zero, zero)) @ own
         assert x @ changed == pytest.approx(2.0 * x @ C_x, rel=1e-7, abs=1e-7)
 
 
@@ -90,7 +90,7 @@ def test_the_combined_error_moves_the_reference_and_is_fed_back():
     gains = [5.0, 4.0, 3.0, 2.0, 1.0, 0.5, 0.2]
     model, rng = linear("panda", 7, K_D=gains, viscous=1.0, coulomb=1.0), np.random.default_rng(11)
     q, v, a, s = rng.uniform(-1, 1, (4, 7))
-    expected = Y(model, q, v, v + s, a) @ theta(model) + gains * s
+    expected = matrix(model, q, v, v + s, a) @ theta(model) + gains * s
     assert effort(model, q, v, a, s) == pytest.approx(expected, abs=1e-12)
 
 
