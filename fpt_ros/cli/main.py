@@ -16,6 +16,7 @@ from fpt_ros.cli import (
     export,
     gain,
     info,
+    layout,
     listing,
     recover,
     report,
@@ -52,6 +53,7 @@ COMMANDS: tuple[tuple[str, Callable[..., Any], str], ...] = (
     ("recover", recover.recover, ""),
     ("diff", diff.diff, ""),
     ("export", export.export, "export"),
+    ("layout", layout.layout, ""),
     ("reproduce", reproduce.reproduce, "thesis"),
     ("demo", demo.demo, "analysis"),
 )
