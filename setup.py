@@ -41,6 +41,8 @@ EXTRAS = {
         "pytest-timeout",
         "hypothesis",
         "mcap-ros2-support",
+        "nbclient",
+        "ipykernel",
         "colcon-common-extensions",
         "psutil",
         "pandas",
@@ -87,6 +89,7 @@ setup(
         ("share/fpt_ros", ["package.xml"]),
         ("share/fpt_ros/config", glob("config/*.yaml")),
         ("share/fpt_ros/launch", glob("launch/*.launch.py")),
+        ("share/fpt_ros/layouts", glob("layouts/*.*")),
     ],
     install_requires=[
         "numpy",

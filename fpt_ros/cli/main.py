@@ -16,6 +16,7 @@ from fpt_ros.cli import (
     export,
     gain,
     info,
+    layout,
     listing,
     recover,
     replay,
@@ -56,6 +57,7 @@ COMMANDS: tuple[tuple[str, Callable[..., Any], str], ...] = (
     ("replay", replay.replay, ""),
     ("rerun", rerun.rerun, ""),
     ("export", export.export, "export"),
+    ("layout", layout.layout, ""),
     ("reproduce", reproduce.reproduce, "thesis"),
     ("demo", demo.demo, "analysis"),
 )
