@@ -31,7 +31,15 @@ def bytes_of(topics):
 
 @pytest.mark.parametrize(
     ("variant", "settings"),
-    [("adaptive", (*PICKED_UP, *PUSHED)), ("pd_gravity", ()), ("time_delay", ()), ("delayed", ())],
+    [
+        ("adaptive", (*PICKED_UP, *PUSHED)),
+        ("pd_gravity", ()),
+        ("time_delay", ()),
+        ("delayed", ()),
+        ("state_observer", ()),
+        ("super_twisting", ()),
+        ("slotine_li", ()),
+    ],
 )
 def test_the_same_bits_in_every_way(variant, settings):
     compiled = Engine(loaded(variant, settings).loop())
