@@ -25,6 +25,9 @@ TEMPLATE, GAIN = "panda", -3.16
 DISTANCE = 75.0
 """The template's :attr:`~fpt_ros.robots.motion.Motion.distance`."""
 
+DAMPING = 30.0
+"""K_D of Slotine and Li's control over a joint's inertia [1/s]: twice the template's lambda."""
+
 HEADER = "# Made by fpt robot"
 """First words of the files that are written here, and so may be written again."""
 
@@ -135,6 +138,7 @@ def _list(key: str, value: Sequence[Any], numbers: Numbers) -> Sequence[Any]:
         "initial_position": lambda: about.home,
         "offset": lambda: about.home,
         "inertia": lambda: [float(f"{each:.3g}") for each in about.inertia],
+        "K_D": lambda: [float(f"{DAMPING * each:.3g}") for each in about.inertia],
         "torque_limit": lambda: [float(f"{SATURATED * x:.3g}") for x in motion.effort],
         "amplitude": lambda: [round(value[0] * fit, 5) for fit in motion.fit],
         "frequency": lambda: _spread(value, n, motion.speed),
