@@ -21,6 +21,7 @@ SWEEP = ["optuna>=5", "pyarrow", "matplotlib"]
 ROS = [
     "ros-jazzy-rclpy[fastrtps]",
     "ros-jazzy-std-msgs",
+    "ros-jazzy-std-srvs",
     "ros-jazzy-sensor-msgs",
     "ros-jazzy-trajectory-msgs",
     "ros-jazzy-diagnostic-msgs",
