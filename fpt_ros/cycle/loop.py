@@ -7,12 +7,12 @@ import math
 from typing import NamedTuple
 
 from fpt_ros.compensators import Compensate
+from fpt_ros.cycle.commanding import command_cycle
 from fpt_ros.cycle.deformation import (
     DeformerConstants,
     DeformerMemory,
     DeformerWork,
     apply_tuning,
-    command_cycle,
 )
 from fpt_ros.cycle.denoiser import (
     DenoiserConstants,
@@ -206,6 +206,7 @@ def run(
             elapsed,
             estimate,
             desired,
+            measured,
             command,
         )
         for j in range(len(where)):
