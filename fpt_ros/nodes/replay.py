@@ -25,7 +25,7 @@ from fpt_ros.nodes.qos import loop_qos
 from fpt_ros.nodes.recorded_until import BEGUN, RECORDED_UNTIL, TIME, encode_time
 from fpt_ros.replay.compared import Comparison
 from fpt_ros.replay.recorded import Cycle
-from fpt_ros.replay.replayed import Out, Outcome, Progress, Replay, outcome
+from fpt_ros.replay.replayed import Out, Outcome, Progress, Replay
 
 NAME = "replay"
 
@@ -72,7 +72,7 @@ def run_live(
     run_nodes([make], stop, [NAME, "--ros-args", "-r", f"__ns:={namespace or '/'}"])
     if stop.signal:
         raise Interrupted("interrupted")
-    return outcome(nodes[0].comparison, *replay.recorded.missing)
+    return Outcome.of(nodes[0].comparison, *replay.recorded.missing)
 
 
 class Wait(NamedTuple):
