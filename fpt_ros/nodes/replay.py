@@ -18,10 +18,10 @@ from fpt_ros.cycle.plant_simulator import PlantSimulator
 from fpt_ros.errors import BadInput, Interrupted, RunFailed
 from fpt_ros.messages.cdr import Codec, MalformedMessage
 from fpt_ros.messages.frames import SECOND, Frame
-from fpt_ros.messages.topics import DEPTH, LOOP_TOPICS, Topic
+from fpt_ros.messages.topics import LOOP_TOPICS, Topic
 from fpt_ros.nodes.loop_node import LoopNode, message_class
 from fpt_ros.nodes.process import Stop, run_nodes
-from fpt_ros.nodes.qos import loop_qos
+from fpt_ros.nodes.qos import HEARD, loop_qos
 from fpt_ros.nodes.recorded_until import BEGUN, RECORDED_UNTIL, TIME, encode_time
 from fpt_ros.replay.compared import Comparison
 from fpt_ros.replay.recorded import Cycle
@@ -115,7 +115,7 @@ class _ReplayNode(LoopNode):
         self._until = None
         if isinstance(stage, PlantSimulator):  # it may wait for a recorder
             self._until = self.create_publisher(message_class(TIME), RECORDED_UNTIL, loop_qos(1))
-        self.subscribe_raw(stage.output.name, stage.output.type, DEPTH, self._on_answer)
+        self.subscribe_raw(stage.output.name, stage.output.type, loop_qos(HEARD), self._on_answer)
         self._set = self.create_client(SetParameters, f"{replay.node}/set_parameters")
         self._changes = deque(sorted(replay.changes, key=lambda change: change.stamp))
         self._expected: dict[int, Cycle] = {}
@@ -196,15 +196,18 @@ class _ReplayNode(LoopNode):
                 return False
         return self.loop_subscriptions[0].get_publisher_count() > 0
 
-    def _on_answer(self, data: bytes) -> None:
+    def _on_answer(self, data: bytes) -> bool:
         try:
             frame = self._decode(data)
-        except MalformedMessage:
-            return
+        except MalformedMessage as error:
+            self.ignore(str(error))
+            return False
         cycle = self._expected.pop(frame.stamp, None)
-        if cycle is not None:
-            self._compare(cycle, frame)
-            self._go_on()
+        if cycle is None:
+            return False
+        self._compare(cycle, frame)
+        self._go_on()
+        return True
 
     def _compare(self, cycle: Cycle, frame: Frame | None) -> None:
         was = cycle.messages[self._output.name]

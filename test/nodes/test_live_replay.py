@@ -43,14 +43,14 @@ def test_in_lockstep_with_a_change_in_flight(tmp_path, node):
 
 
 def test_by_the_clock_into_a_node_with_another_gain(tmp_path):
-    """In real time too, and in a namespace; no answer is lost at half the speed."""
+    """In real time, where a node answers the newest cycle: one that it passes over differs too."""
     info = {**INFO, "clock": "realtime", "namespace": "/"}
     bag = recorded(tmp_path / "bag", "tora", CYCLES, info=info)
     with running("fpt_deformer", bag, "-p", "realtime:=true", "-p", "A:=-0.4"):
         done = fpt("replay", bag, "--node", "fpt_deformer", "--live", "--rate", "0.5")
     assert done.returncode == 1
     assert f"of {CYCLES} cycles differ" in done.stdout
-    assert "/command differs first in cycle 1: accelerations.q" in done.stdout
+    assert "/command differs first in cycle " in done.stdout
 
 
 def test_there_is_no_such_node(tmp_path, monkeypatch):
