@@ -113,7 +113,7 @@ class _ReplayNode(LoopNode):
             for topic in inputs
         }
         self._until = self.create_publisher(message_class(TIME), RECORDED_UNTIL, loop_qos(1))
-        self.subscribe_raw(stage.output.name, stage.output.type, DEPTH, self._on_answer)
+        self.subscribe_raw(stage.output.name, stage.output.type, loop_qos(DEPTH), self._on_answer)
         self._set = self.create_client(SetParameters, f"{replay.node}/set_parameters")
         self._changes = deque(sorted(replay.changes, key=lambda change: change.stamp))
         self._expected: dict[int, Cycle] = {}
@@ -190,15 +190,17 @@ class _ReplayNode(LoopNode):
                 return False
         return self.loop_subscriptions[0].get_publisher_count() > 0
 
-    def _on_answer(self, data: bytes) -> None:
+    def _on_answer(self, data: bytes) -> bool:
         try:
             frame = self._decode(data)
         except MalformedMessage:
-            return
+            return False
         cycle = self._expected.pop(frame.stamp, None)
-        if cycle is not None:
-            self._compare(cycle, frame)
-            self._go_on()
+        if cycle is None:
+            return False
+        self._compare(cycle, frame)
+        self._go_on()
+        return True
 
     def _compare(self, cycle: Cycle, frame: Frame | None) -> None:
         was = cycle.messages[self._output.name]

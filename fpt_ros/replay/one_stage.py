@@ -195,4 +195,4 @@ def with_settings(recorded: Recorded, node: str, settings: Values) -> dict[str, 
     """The recorded parameters of a node with some of them changed."""
     base = ParameterFile(nodes={node: dict(recorded.parameters[node])})
     file = base.overlay(ParameterFile(nodes={node: dict(settings)}))
-    return resolved(node, file, base, {(node, name) for name in settings})
+    return resolved(node, file, [base], {(node, name) for name in settings})
