@@ -12,7 +12,7 @@ from bokeh.model import Model
 from bokeh.models import CustomJS, Range1d
 from bokeh.resources import Resources
 
-from fpt_ros.analysis.panels import Curve, Panels
+from fpt_ros.analysis.panels import Curve, Panels, Span
 from fpt_ros.analysis.plots.drawing import Drawing
 from fpt_ros.analysis.plots.parts import home_range
 from fpt_ros.analysis.plots.pool import Pool
@@ -39,24 +39,20 @@ def plots(figures: Mapping[str, Panels]) -> Plots:
         for curve in _timed(panels):
             pool.add(curve)
     pool.finish()
-    common = _window([panels for panels in figures.values() if panels.time and panels.linked])
-    common.name = WINDOW
+    whole = _span([panels for panels in figures.values() if panels.time and panels.linked])
+    common = home_range(whole, name=WINDOW)
     roots: dict[str, Model] = {}
     for name, panels in figures.items():
-        own = panels.time and not panels.linked
-        drawing = Drawing(panels, pool, _window([panels]) if own else common)
+        alone = panels.time and not panels.linked
+        span = _span([panels]) if alone else whole
+        drawing = Drawing(panels, pool, home_range(span, bounds="auto"))
         root = roots[name] = gridplot(
             drawing.grid(),
             sizing_mode="stretch_width",
             toolbar_location="right",
             toolbar_options={"logo": None},
         )
-        update = CustomJS(
-            args={"range": drawing.window, "rows": drawing.rows, "root": root}, code=_SCRIPT
-        )
-        for end in ("start", "end"):
-            drawing.window.js_on_change(end, update)
-        document.js_on_event(DocumentReady, update)
+        _link(document, root, drawing, home_range(span) if alone else common)
         document.add_root(root)
     script, places = components(roots)
     return Plots(Resources(mode="inline", components=["bokeh"]).render_js(), script, places)
@@ -68,9 +64,24 @@ def _timed(panels: Panels) -> Iterator[Curve]:
         yield from (c for c in panel.curves if panels.time or c.time is not None)
 
 
-def _window(figures: Iterable[Panels]) -> Range1d:
+def _span(figures: Iterable[Panels]) -> Span:
     """All of the time that there is."""
     times = [curve.x for panels in figures for curve in _timed(panels)]
     first = min((float(time[0]) for time in times), default=0.0)
     last = max((float(time[-1]) for time in times), default=1.0)
-    return home_range((first, last if last > first else first + 1.0), bounds="auto")
+    return first, last if last > first else first + 1.0
+
+
+def _link(document: Document, root: Model, drawing: Drawing, common: Range1d) -> None:
+    """A figure follows the common window, and moves it."""
+    own = drawing.window
+    given = {"common": common, "own": own, "root": root, "rows": drawing.rows}
+    follow = CustomJS(args=given, code=_SCRIPT)
+    move = CustomJS(
+        args={"common": common, "own": own},
+        code="common.setv({ start: own.start, end: own.end })",
+    )
+    document.js_on_event(DocumentReady, follow)
+    for end in ("start", "end"):
+        common.js_on_change(end, follow)
+        own.js_on_change(end, move)
