@@ -10,6 +10,7 @@ from ruamel.yaml.error import YAMLError
 
 from fpt_ros.errors import BadInput
 from fpt_ros.sweep.definition import Sweep
+from fpt_ros.yaml_text import parse
 
 DEFINITION = "sweep.yaml"
 
@@ -45,7 +46,7 @@ def open_directory(sweep: Sweep, directory: Path) -> bool:
 
 def _compare(definition: Mapping[str, Any], path: Path) -> None:
     try:
-        stored = YAML(typ="safe", pure=True).load(path.read_text(encoding="utf-8"))
+        stored = parse(path.read_text(encoding="utf-8"))
     except (OSError, UnicodeDecodeError, YAMLError) as error:
         raise BadInput(f"{path} cannot be read, give a new directory") from error
     if not isinstance(stored, dict):
