@@ -165,7 +165,7 @@ def _page(
 def _tables(results: Results) -> list[Table]:
     field = results.asked.plan.field
     kinds = (
-        ("What else they meet", [one for one in field.groups[0]]),
+        ("Other circumstances", list(field.groups[0])),
         ("Noise", [one for one in field.circumstances if one.grade == NOISE]),
         ("Delay", [one for one in field.circumstances if one.grade == DELAY]),
     )

@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 from time import perf_counter
 from typing import Any, cast
 
+from fpt_ros.analysis.sizes import finite
 from fpt_ros.compare.field import Circumstance, Controller, Field, variant
 from fpt_ros.compare.measures import simulate, simulate_and_show, whole_of
 from fpt_ros.compare.tuned import task_of
@@ -52,8 +53,17 @@ def run_tasks(plan: Plan, numbers: Sequence[int]) -> tuple[float, list[Row]]:
     for number in numbers:
         results = run_task(plan, number)
         lost = [one["outcome"] for one in results["runs"].values() if one["outcome"] != COMPLETE]
-        rows.append([number, lost[0] if lost else COMPLETE, results])
+        rows.append([number, lost[0] if lost else COMPLETE, _for_json(results)])
     return perf_counter() - started, rows
+
+
+def _for_json(value: Any) -> Any:
+    """The same with ``None`` for numbers that JSON has no word for: a run that is lost has some."""
+    if isinstance(value, dict):
+        return {key: _for_json(each) for key, each in value.items()}
+    if isinstance(value, list | tuple):
+        return [_for_json(each) for each in value]
+    return finite(value) if isinstance(value, float) else value
 
 
 def run_task(plan: Plan, number: int) -> dict[str, Any]:
@@ -107,7 +117,7 @@ def _over(results: Sequence[Mapping[str, object]], key: str) -> float | None:
         return None
     if key == "max":
         return max(known)
-    return math.sqrt(sum(value * value for value in known) / len(known))
+    return math.hypot(*known) / math.sqrt(len(known))
 
 
 def _tune(plan: Plan, controller: Controller, one: Circumstance) -> dict[str, Any] | None:
@@ -128,7 +138,7 @@ def _tune(plan: Plan, controller: Controller, one: Circumstance) -> dict[str, An
     def look(experiment: Experiment, loop: Loop) -> Mapping[str, object]:
         result = simulate(experiment, loop)
         error, step = whole_of(result)["error"], whole_of(result)["step"]
-        if not result["reason"] and error is not None and step is not None:
+        if not result["reason"] and error and step:
             points.append((_short(error), _short(step)))
         return result
 
