@@ -14,7 +14,12 @@ from fpt_ros.cycle.trajectory_generator import TrajectoryGenerator
 from fpt_ros.errors import BadInput
 from fpt_ros.experiments import description, parameter_file
 from fpt_ros.experiments.checks import check_fit
-from fpt_ros.experiments.derived import derive_names, filter_noise, share_synchronised
+from fpt_ros.experiments.derived import (
+    derive_names,
+    filter_noise,
+    heal_losses,
+    share_synchronised,
+)
 from fpt_ros.experiments.locate import config_directory
 from fpt_ros.experiments.parameter_file import ParameterFile
 from fpt_ros.experiments.sections import SECTIONS, declared_by, resolved
@@ -140,6 +145,7 @@ def load(
     file.nodes[description.NODE].update(experiment=path.stem, variant=variant)
     share_synchronised(file)
     filter_noise(file)
+    heal_losses(file)
     in_loop = in_the_loop(file.nodes[ParameterTuner.name])
     for node, parameter, value in changes:
         if parameter == "await_tuning" and value != in_loop:
