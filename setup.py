@@ -29,6 +29,7 @@ ROS = [
 EXTRAS = {
     "analysis": FIGURES,  # fpt report, demo, gain --plot
     "sweep": SWEEP,  # fpt sweep, tune
+    "compare": sorted({*FIGURES, *SWEEP}),  # fpt compare
     "export": ["pandas", "pyarrow"],  # fpt export, fpt_ros.load
     "denoise": OFFLINE,  # fpt denoise
     "thesis": sorted({*FIGURES, *OFFLINE}),  # fpt reproduce
@@ -80,6 +81,7 @@ setup(
     package_data={
         "fpt_ros": ["py.typed"],
         "fpt_ros.analysis": ["*.html.j2", "*.css"],
+        "fpt_ros.compare": ["*.html.j2"],
         "fpt_ros.analysis.plots": ["*.js"],
         "fpt_ros.thesis": ["*.html.j2"],
         "fpt_ros.nodes": ["*.xml"],
