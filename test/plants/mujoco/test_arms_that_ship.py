@@ -8,7 +8,7 @@ import pytest
 
 from fpt_ros.parameters import resolve
 from fpt_ros.plants import MODELS
-from fpt_ros.plants.mujoco.description import ARMS, shipped
+from fpt_ros.plants.mujoco.description_file import ARMS, shipped
 
 pytest.importorskip("mujoco")
 
