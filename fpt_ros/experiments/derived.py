@@ -5,8 +5,10 @@ from typing import cast
 
 from fpt_ros.cycle.denoiser import FILTER_OF_NOISE, METHOD, SYNCHRONISED, Denoiser
 from fpt_ros.cycle.fpt_deformer import FptDeformer
+from fpt_ros.cycle.healing import HEALING, HEALING_OF_LOSSES
 from fpt_ros.cycle.plant_simulator import PlantSimulator
 from fpt_ros.cycle.stage import CYCLE_TIME, JOINTS
+from fpt_ros.cycle.suffered import SENSORS
 from fpt_ros.cycle.trajectory_generator import TrajectoryGenerator
 from fpt_ros.cycle.tuned import CONTROLLED
 from fpt_ros.errors import BadInput
@@ -51,6 +53,16 @@ def derive_names(
         for name in declared_by(parameters, {**file.shared, **values}) & derived.keys():
             if (node, name) != OWN_CONTROLLED:
                 values[name] = cast(Value, derived[name])
+
+
+def heal_losses(file: ParameterFile) -> None:
+    """Samples that disturbed sensors lose are healed where nobody has chosen how."""
+    plant = {**file.shared, **file.nodes[PlantSimulator.name]}
+    if plant.get(SENSORS.name) and HEALING.name not in {
+        **file.shared,
+        **file.nodes[Denoiser.name],
+    }:
+        file.nodes[Denoiser.name][HEALING.name] = HEALING_OF_LOSSES
 
 
 def filter_noise(file: ParameterFile) -> None:
