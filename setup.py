@@ -15,11 +15,13 @@ OFFLINE = ["scikit-fuzzy", "pyarrow", "matplotlib"]
 CLUSTER = ["dask", "distributed"]
 PEERS = ["scikit-image", "statsmodels"]
 ROBOTS = ["mujoco>=3.3"]
+ORACLE = ["pin>=3"]  # Pinocchio: what tests and benchmarks of arms compare with
 SWEEP = ["optuna>=5", "pyarrow", "matplotlib"]
 # Jazzy for machines without it: wheels of the real thing (x86-64 Linux, CPython 3.10 to 3.14)
 ROS = [
     "ros-jazzy-rclpy[fastrtps]",
     "ros-jazzy-std-msgs",
+    "ros-jazzy-std-srvs",
     "ros-jazzy-sensor-msgs",
     "ros-jazzy-trajectory-msgs",
     "ros-jazzy-diagnostic-msgs",
@@ -40,12 +42,14 @@ EXTRAS = {
         "pytest-timeout",
         "hypothesis",
         "mcap-ros2-support",
+        "nbclient",
+        "ipykernel",
         "colcon-common-extensions",
         "psutil",
         "pandas",
         "setuptools<80",
         "wheel",
-        *sorted({*FIGURES, *OFFLINE, *SWEEP, *CLUSTER, *PEERS, *ROBOTS}),
+        *sorted({*FIGURES, *OFFLINE, *SWEEP, *CLUSTER, *PEERS, *ROBOTS, *ORACLE}),
     ],
     "lint": ["ruff", "mypy", "pre-commit"],
     "docs": ["sphinx", "furo", "myst-parser"],
@@ -76,6 +80,7 @@ setup(
     package_data={
         "fpt_ros": ["py.typed"],
         "fpt_ros.analysis": ["*.html.j2", "*.css"],
+        "fpt_ros.analysis.plots": ["*.js"],
         "fpt_ros.thesis": ["*.html.j2"],
         "fpt_ros.nodes": ["*.xml"],
         "fpt_ros.plants.mujoco": ["arms/*.xml"],
@@ -85,6 +90,7 @@ setup(
         ("share/fpt_ros", ["package.xml"]),
         ("share/fpt_ros/config", glob("config/*.yaml")),
         ("share/fpt_ros/launch", glob("launch/*.launch.py")),
+        ("share/fpt_ros/layouts", glob("layouts/*.*")),
     ],
     install_requires=[
         "numpy",
@@ -134,6 +140,7 @@ setup(
             "mimo_affine = fpt_ros.plants.mimo_affine:MODEL",
             "mujoco = fpt_ros.plants.mujoco.model:MODEL",
             "mujoco_diagonal = fpt_ros.plants.mujoco.diagonal:MODEL",
+            "mujoco_linear = fpt_ros.plants.mujoco.linear:MODEL",
             "siso_affine = fpt_ros.plants.siso_affine:MODEL",
             "spherical_affine = fpt_ros.plants.spherical_pendulum:AFFINE_MODEL",
             "spherical_fully_fuzzy = fpt_ros.plants.spherical_pendulum:FULLY_FUZZY",
@@ -169,8 +176,13 @@ setup(
         "fpt_ros.compensators": [
             "disturbance_observer = fpt_ros.compensators.disturbance_observer:DISTURBANCE_OBSERVER",
             "incremental = fpt_ros.compensators.incremental:INCREMENTAL",
+            "l1 = fpt_ros.compensators.l1:L1",
+            "model_free = fpt_ros.compensators.model_free:MODEL_FREE",
             "momentum_observer = fpt_ros.compensators.momentum_observer:MOMENTUM_OBSERVER",
             "none = fpt_ros.compensators.none:NONE",
+            "sliding_mode = fpt_ros.compensators.sliding_mode:SLIDING_MODE",
+            "state_observer = fpt_ros.compensators.state_observer:STATE_OBSERVER",
+            "super_twisting = fpt_ros.compensators.super_twisting:SUPER_TWISTING",
             "time_delay = fpt_ros.compensators.time_delay:TIME_DELAY",
         ],
         "fpt_ros.disturbances": [

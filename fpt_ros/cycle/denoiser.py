@@ -4,16 +4,17 @@ import math
 from typing import NamedTuple
 
 from fpt_ros.cycle import healing
-from fpt_ros.cycle.healing import HealingConstants, heal, keep_estimate
+from fpt_ros.cycle.healing import HEALING, HealingConstants, heal, keep_estimate
 from fpt_ros.cycle.joints import Entrance
 from fpt_ros.cycle.records import Layout
 from fpt_ros.cycle.rows import Commanded, Measured, StateEstimateRow, no_command
-from fpt_ros.cycle.stage import CYCLE_TIME, JOINTS, REALTIME, Input, Stage
+from fpt_ros.cycle.stage import CYCLE_TIME, JOINTS, REALTIME, ROBOT, Input, Stage
 from fpt_ros.denoising.streaming import FILTERS, ORDER, Update
+from fpt_ros.errors import BadInput
 from fpt_ros.laws import Matrix, MutableVector, Vector, helper
-from fpt_ros.messages.frames import Command, JointStates, StateEstimate
-from fpt_ros.messages.topics import COMMAND, JOINT_STATES, STATE_ESTIMATE
-from fpt_ros.parameters import Parameter, Values, flag, number, word, words
+from fpt_ros.messages.frames import Command, Frame, JointStates, StateEstimate
+from fpt_ros.messages.topics import COMMAND, JOINT_STATES, STATE_ESTIMATE, Topic
+from fpt_ros.parameters import Parameter, Values, flag, integer, number, word, words
 
 METHOD = Parameter(
     "method",
@@ -162,6 +163,7 @@ class Denoiser(Stage):
             *healing.PARAMETERS,
             *own,
             REALTIME,
+            ROBOT,
             CYCLE_TIME,
             JOINTS,
         )
@@ -172,8 +174,30 @@ class Denoiser(Stage):
         command = (Input(COMMAND, lag=1),) if self.synchronised else ()
         return (Input(JOINT_STATES), *command)
 
+    def admit(self, topic: Topic, frame: Frame) -> Frame:
+        """As of any stage; and a measurement without velocity needs a filter that finds it.
+
+        Raises:
+            BadInput: the frame cannot be used.
+        """
+        frame = super().admit(topic, frame)
+        if isinstance(frame, JointStates) and self._needs_velocity:
+            heals = word(self.values, HEALING.name) != "none"
+            motions = zip(frame.names, frame.position, frame.velocity, strict=True)
+            for name, position, velocity in motions:
+                if math.isnan(velocity) and not (heals and math.isnan(position)):
+                    raise BadInput(
+                        f"{self.name}, joint_states: there is no velocity of {name}, and "
+                        f"{self.name}.method none takes what is measured: finite_difference finds "
+                        "it, or another filter"
+                    )
+        return frame
+
     def _prepare(self) -> None:
         values = self.values
+        self._needs_velocity = (
+            word(values, "method") == METHOD.default and integer(values, "order") == 2
+        )
         self.filter = FILTERS[word(values, "method")]
         self.synchronised = flag(values, "synchronised")
         if not self._n:

@@ -8,12 +8,12 @@ from typing import NamedTuple
 
 from fpt_ros.compensators import Compensate
 from fpt_ros.cycle.chains import Sense
+from fpt_ros.cycle.commanding import command_cycle
 from fpt_ros.cycle.deformation import (
     DeformerConstants,
     DeformerMemory,
     DeformerWork,
     apply_tuning,
-    command_cycle,
 )
 from fpt_ros.cycle.denoiser import (
     DenoiserConstants,
@@ -208,6 +208,7 @@ def run(
             elapsed,
             estimate,
             desired,
+            measured,
             command,
         )
         for j in range(len(where)):

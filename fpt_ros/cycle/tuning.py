@@ -15,13 +15,14 @@ FIRST, WATCHING, TUNING_NOW = 0, 1, 2
 
 
 class TunerConstants(NamedTuple):
-    """Fixed: the law's constants, places of the controlled coordinates (where the law needs them).
+    """Fixed: constants of law and model, places of the controlled coordinates (where needed).
 
     ``reference``: Y is taken at the reference motion; ``guards``: the precursor guard acts;
     ``signals``: how many numbers of the law's memory are published; ``tune_from`` [s].
     """
 
     law: Vector
+    model: Vector
     where: Indices
     reference: int
     guards: int
@@ -84,7 +85,7 @@ def tune(
             a[at] = memory.desired[i]
     if len(Y) > 0:
         size = len(values)
-        regressor(memory.position, memory.velocity, w, a, Y)
+        regressor(constants.model, memory.position, memory.velocity, w, a, Y)
         for i in range(len(error)):
             total = 0.0
             for j in range(size):
@@ -161,7 +162,7 @@ def phase_of(first: bool, before: float, tune_from: float) -> int:
 
 
 @helper
-def no_regressor(q: Vector, v: Vector, w: Vector, a: Vector, out: MutableVector) -> None:
+def no_regressor(c: Vector, q: Vector, v: Vector, w: Vector, a: Vector, out: MutableVector) -> None:
     """In the place of a regressor where none is needed."""
 
 

@@ -129,8 +129,14 @@ def _of_tuner(loop: Loop, points: list[Point]) -> Iterator[Trial]:
         yield Trial(
             f"parameter_tuner.model {word(stage.values, 'model')}: regressor",
             stage.regressor,
-            split("q v w a out"),
-            lambda: [(*read("q v w a", q, v, v, a), out("out", rows * size)) for q, v in points],
+            split("coefficients q v w a out"),
+            lambda: [
+                (
+                    *read("coefficients q v w a", constants.model, q, v, v, a),
+                    out("out", rows * size),
+                )
+                for q, v in points
+            ],
         )
     fields = "seen.Y seen.error seen.tracking seen.h seen.r"
     yield Trial(

@@ -46,6 +46,7 @@ SEPARATE = [
     ("tora", "adaptive", 16 if samples.whole else 3, ()),
     ("tora", "nonadaptive", 3, ("--namespace", "robot1")),
     ("vdp_rfpt", "adaptive", 6 if samples.whole else 2, ()),
+    ("panda", "adaptive", 16 if samples.whole else 0.5, ()),
     ("swing", "adaptive", 0.1, ("--set", "trajectory_generator.time_sharing=[0.02, 0.005]")),
 ]
 
