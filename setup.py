@@ -138,6 +138,7 @@ setup(
             "kapitza_listing = fpt_ros.plants.kapitza:LISTING",
             "kapitza_with_gravity = fpt_ros.plants.kapitza:WITH_GRAVITY",
             "lorenz = fpt_ros.plants.lorenz:MODEL",
+            "lorenz_incomplete = fpt_ros.plants.lorenz:INCOMPLETE",
             "mimo_affine = fpt_ros.plants.mimo_affine:MODEL",
             "mujoco = fpt_ros.plants.mujoco.model:MODEL",
             "mujoco_diagonal = fpt_ros.plants.mujoco.diagonal:MODEL",
