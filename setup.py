@@ -25,7 +25,7 @@ ROS = [
     "ros-jazzy-diagnostic-msgs",
 ]
 EXTRAS = {
-    "analysis": FIGURES,  # fpt report, demo, gain --plot
+    "analysis": [*FIGURES, "bokeh>=3.9"],  # fpt report, demo, gain --plot
     "sweep": SWEEP,  # fpt sweep, tune
     "export": ["pandas", "pyarrow"],  # fpt export, fpt_ros.load
     "denoise": OFFLINE,  # fpt denoise
@@ -43,6 +43,8 @@ EXTRAS = {
         "colcon-common-extensions",
         "psutil",
         "pandas",
+        "bokeh>=3.9",
+        "websockets",  # drives a browser
         "setuptools<80",
         "wheel",
         *sorted({*FIGURES, *OFFLINE, *SWEEP, *CLUSTER, *PEERS, *ROBOTS}),
