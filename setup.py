@@ -27,8 +27,9 @@ ROS = [
     "ros-jazzy-diagnostic-msgs",
 ]
 EXTRAS = {
-    "analysis": FIGURES,  # fpt report, demo, gain --plot
+    "analysis": [*FIGURES, "bokeh>=3.9"],  # fpt report, demo, gain --plot
     "sweep": SWEEP,  # fpt sweep, tune
+    "compare": sorted({*FIGURES, *SWEEP}),  # fpt compare
     "export": ["pandas", "pyarrow"],  # fpt export, fpt_ros.load
     "denoise": OFFLINE,  # fpt denoise
     "thesis": sorted({*FIGURES, *OFFLINE}),  # fpt reproduce
@@ -47,6 +48,8 @@ EXTRAS = {
         "colcon-common-extensions",
         "psutil",
         "pandas",
+        "bokeh>=3.9",
+        "websockets",  # drives a browser
         "setuptools<80",
         "wheel",
         *sorted({*FIGURES, *OFFLINE, *SWEEP, *CLUSTER, *PEERS, *ROBOTS, *ORACLE}),
@@ -80,6 +83,7 @@ setup(
     package_data={
         "fpt_ros": ["py.typed"],
         "fpt_ros.analysis": ["*.html.j2", "*.css"],
+        "fpt_ros.compare": ["*.html.j2"],
         "fpt_ros.analysis.plots": ["*.js"],
         "fpt_ros.thesis": ["*.html.j2"],
         "fpt_ros.nodes": ["*.xml"],
@@ -136,6 +140,7 @@ setup(
             "kapitza_listing = fpt_ros.plants.kapitza:LISTING",
             "kapitza_with_gravity = fpt_ros.plants.kapitza:WITH_GRAVITY",
             "lorenz = fpt_ros.plants.lorenz:MODEL",
+            "lorenz_incomplete = fpt_ros.plants.lorenz:INCOMPLETE",
             "mimo_affine = fpt_ros.plants.mimo_affine:MODEL",
             "mujoco = fpt_ros.plants.mujoco.model:MODEL",
             "mujoco_diagonal = fpt_ros.plants.mujoco.diagonal:MODEL",
@@ -151,11 +156,16 @@ setup(
         ],
         "fpt_ros.trajectories": [
             "blended_sines = fpt_ros.trajectories.blended_sines:BLENDED_SINES",
+            "chirp = fpt_ros.trajectories.chirp:CHIRP",
             "constant = fpt_ros.trajectories.constant:CONSTANT",
             "cosines = fpt_ros.trajectories.cosines:COSINES",
             "fitzhugh_nagumo = fpt_ros.trajectories.fitzhugh_nagumo:FITZHUGH_NAGUMO",
+            "minimum_jerk = fpt_ros.trajectories.minimum_jerk:MINIMUM_JERK",
+            "recorded = fpt_ros.trajectories.recorded:RECORDED",
             "sine = fpt_ros.trajectories.sine:SINE",
             "spline = fpt_ros.trajectories.spline:SPLINE",
+            "step = fpt_ros.trajectories.step:STEP",
+            "waypoints = fpt_ros.trajectories.waypoints:WAYPOINTS",
         ],
         "fpt_ros.relaxations": [
             "feedback_pd = fpt_ros.relaxations.feedback_pd:FEEDBACK_PD",
@@ -185,24 +195,50 @@ setup(
             "lugre = fpt_ros.disturbances.lugre:LUGRE",
             "sine_noise = fpt_ros.disturbances.sine_noise:SINE_NOISE",
         ],
+        "fpt_ros.integrators": [
+            "dopri5 = fpt_ros.integrators.dopri5:DOPRI5",
+            "explicit_euler = fpt_ros.integrators.explicit_euler:EXPLICIT_EULER",
+            "rk4 = fpt_ros.integrators.rk4:RK4",
+            ("semi_implicit_euler = fpt_ros.integrators.semi_implicit_euler:SEMI_IMPLICIT_EULER"),
+        ],
+        "fpt_ros.sensor_disturbances": [
+            "biased = fpt_ros.disturbances.sensors.biased:BIASED",
+            "bursts = fpt_ros.disturbances.sensors.bursts:BURSTS",
+            "impulses = fpt_ros.disturbances.sensors.impulses:IMPULSES",
+            "lagging = fpt_ros.disturbances.sensors.lagging:LAGGING",
+            "lost = fpt_ros.disturbances.sensors.lost:LOST",
+            "quantised = fpt_ros.disturbances.sensors.quantised:QUANTISED",
+        ],
+        "fpt_ros.actuator_disturbances": [
+            "dead_zone = fpt_ros.disturbances.actuators.dead_zone:DEAD_ZONE",
+            "dropouts = fpt_ros.disturbances.actuators.dropouts:DROPOUTS",
+            "imprecise = fpt_ros.disturbances.actuators.imprecise:IMPRECISE",
+            "lag = fpt_ros.disturbances.actuators.lag:LAG",
+            "saturation = fpt_ros.disturbances.actuators.saturation:SATURATION",
+        ],
         "fpt_ros.transformations": [
             "none = fpt_ros.transformations.none:NONE",
             "atanh = fpt_ros.transformations.atanh:ATANH",
+            "rotation = fpt_ros.transformations.rotation:ROTATION",
             "rfpt = fpt_ros.transformations.rfpt:RFPT",
             "sgfpt = fpt_ros.transformations.sgfpt:SGFPT",
             "stretched = fpt_ros.transformations.stretched:STRETCHED",
         ],
         "fpt_ros.tuning": [
+            "damped = fpt_ros.tuning.pseudo_inverse:DAMPED",
             "fixed_point = fpt_ros.tuning.fixed_point:FIXED_POINT",
             "gain = fpt_ros.tuning.gain:CALCULATED",
             "gram_schmidt = fpt_ros.tuning.gram_schmidt:GRAM_SCHMIDT",
             "none = fpt_ros.tuning.none:NONE",
             "lyapunov = fpt_ros.tuning.lyapunov:LYAPUNOV",
+            "moore_penrose = fpt_ros.tuning.pseudo_inverse:MOORE_PENROSE",
             "projection = fpt_ros.tuning.projection:PROJECTION",
             "slotine_li = fpt_ros.tuning.slotine_li:SLOTINE_LI",
+            "truncated_svd = fpt_ros.tuning.truncated_svd:TRUNCATED_SVD",
             "weights = fpt_ros.tuning.weights:TUNED_WEIGHTS",
         ],
         "fpt_ros.filters": [
+            "adaptive_kalman = fpt_ros.denoising.streaming.adaptive_kalman:ADAPTIVE_KALMAN",
             "adaptive_savgol = fpt_ros.denoising.streaming.adaptive_savgol:ADAPTIVE_SAVGOL",
             "alpha_beta_gamma = fpt_ros.denoising.streaming.alpha_beta_gamma:ALPHA_BETA_GAMMA",
             "butterworth = fpt_ros.denoising.streaming.butterworth:BUTTERWORTH",

@@ -110,7 +110,8 @@ def deform_response(
     """r_k = G(r_{k-d}, response to r_{k-d} - desired_k), and the model's effort for it.
 
     A coordinate that is controlled anew gets the desired response itself. Where the filter shows r
-    (``estimate.deformed`` is not NaN), the step is made from that instead of from r_{k-d}.
+    (``estimate.deformed`` is not NaN), the step is made from that instead of from r_{k-d}. Where
+    the response is not known (NaN, a lost sample), r stays.
     """
     past, seen, delay, hold = memory.deformed, memory.observed, constants.delay, constants.hold
     r, h, f, target, combined = work.r, work.h, work.f, work.out, work.combined
@@ -137,8 +138,9 @@ def deform_response(
         at, before = where[i], past[turn, where[i]]
         r[i], h[i], f[i] = wanted[i], 0.0, wanted[i]
         if adaptive and not math.isnan(before) and not math.isnan(wanted[i]):
-            r[i] = before if math.isnan(shown[at]) else shown[at]
-            if not held:
+            known = not math.isnan(seen[then, at])
+            r[i] = before if math.isnan(shown[at]) or not known else shown[at]
+            if known and not held:
                 f[i] = seen[then, at]
                 h[i] = weights[i] * (f[i] - wanted[i])
         if not math.isnan(wanted[i]):

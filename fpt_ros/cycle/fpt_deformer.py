@@ -235,6 +235,12 @@ class FptDeformer(Stage):
 
     def trouble(self, q: Vector) -> str:
         """What is wrong with the approximate model at q; empty: nothing that it knows of."""
+        lost = [name for name, x in zip(self.coordinates, q, strict=True) if math.isnan(x)]
+        if lost:
+            return (
+                f"the position of {', '.join(lost)} is not known, a sample was lost: "
+                "denoiser.healing.kind=predict heals it"
+            )
         return self.model.trouble(self.coefficients, q) if self.model.trouble is not None else ""
 
     def safe_command(self, stamp: int) -> Command:

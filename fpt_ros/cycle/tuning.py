@@ -1,5 +1,6 @@
 """What stage 4 computes: what is tuned in a cycle, and what is kept for the next one."""
 
+import math
 from typing import NamedTuple
 
 from fpt_ros.cycle.rows import Commanded, Estimated, TuningRow, Wanted
@@ -113,6 +114,15 @@ def remember(
 
 
 @helper
+def answered(response: Vector) -> bool:
+    """Whether the response is known: of a lost sample it is not."""
+    known = True
+    for x in response:
+        known = known and not math.isnan(x)
+    return known
+
+
+@helper
 def tuning_cycle(
     update: Update,
     regressor: Regressor,
@@ -131,7 +141,7 @@ def tuning_cycle(
         index = observe(memory.observer, command.accelerations)
         if constants.guards:
             memory.factor[0] = guarded(memory.factor[0], index)
-    if phase == TUNING_NOW:
+    if phase == TUNING_NOW and answered(estimate.accelerations):
         tune(update, regressor, constants, memory, work, dt, estimate, desired, command)
     remember(constants, memory, estimate, desired)
     size, signals, values = len(memory.values), constants.signals, out.values

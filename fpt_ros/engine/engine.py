@@ -94,6 +94,7 @@ class Engine:
             self._loop.deformer.transformation.deform,
             self._loop.deformer.model.effort,
             self._loop.deformer.compensator.compensate,
+            self._loop.plant.sense,
             self._loop.plant.law,
         )
         if not compile_laws:

@@ -11,7 +11,9 @@ from pathlib import Path
 
 import pytest
 import samples
-from command import fpt, fpt_json, start_fpt
+from command import forked_fpt as fpt
+from command import forked_fpt_json as fpt_json
+from command import start_fpt
 from test_endings import ended, node_of, under_way
 from watcher import watcher
 
