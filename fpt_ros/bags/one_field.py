@@ -185,6 +185,8 @@ class _Picked:
         names = columns.all_names(self._reading)
         known = {joint for part in self._reading.parts for joint in columns.joints(part.layout)}
         if self._joint is not None and self._joint not in known:
+            if any(self._joint in part.layout.texts.values() for part in self._reading.parts):
+                return f"--joint {self._joint}: messages on {self._topic} name a joint twice"
             there = ", ".join(sorted(known)) or "none"
             return f"--joint {self._joint}: {self._topic} has the joints {there}"
         if self._reading.left_out & {self._field, columns.split_element(self._field)[0]}:

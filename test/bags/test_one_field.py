@@ -136,6 +136,12 @@ def test_what_is_not_there(
     assert "\n" not in str(caught.value)
 
 
+def test_a_joint_that_is_named_twice(tmp_path: Path) -> None:
+    path = joints(tmp_path / "a.mcap", [(0, ("a", "a"), (1.0, 2.0), ())])
+    with pytest.raises(BadInput, match="--joint a: messages on joint_states name a joint twice"):
+        read_field(path, "joint_states", "position", "a")
+
+
 def test_a_damaged_recording_says_so(tmp_path: Path) -> None:
     path = recording(tmp_path / "bag")
     path.write_bytes(path.read_bytes()[: path.stat().st_size // 2])
