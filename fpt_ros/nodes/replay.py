@@ -102,7 +102,7 @@ class _ReplayNode(LoopNode):
         self.comparison = Comparison(recorded.prefix)
         self._recorded, self._rate = recorded, rate
         self._progress, self._out = progress, out
-        self._node, self._output = replay.node, stage.output
+        self._node, self._output = stage.name, stage.output
         self._decode = Codec(stage.output).decode
         inputs = {each.topic for each in stage.inputs}
         place = LOOP_TOPICS.index(stage.output)
@@ -116,8 +116,9 @@ class _ReplayNode(LoopNode):
         if isinstance(stage, PlantSimulator):  # it may wait for a recorder
             self._until = self.create_publisher(message_class(TIME), RECORDED_UNTIL, loop_qos(1))
         self.subscribe_raw(stage.output.name, stage.output.type, loop_qos(HEARD), self._on_answer)
-        self._set = self.create_client(SetParameters, f"{replay.node}/set_parameters")
-        self._changes = deque(sorted(replay.changes, key=lambda change: change.stamp))
+        self._set = self.create_client(SetParameters, f"{stage.name}/set_parameters")
+        own = [change for change in recorded.changes if change.node == stage.name]
+        self._changes = deque(sorted(own, key=lambda change: change.stamp))
         self._expected: dict[int, Cycle] = {}
         self._script = self._steps()
         self._wait = Wait(lambda: True)
