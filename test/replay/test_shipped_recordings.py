@@ -1,4 +1,4 @@
-"""The recordings of ``bags/`` were made by the graph, by a commit before: the numbers still hold."""
+"""The recordings of ``bags/`` were made by the graph, some commits before: the numbers hold."""
 
 from pathlib import Path
 
