@@ -15,11 +15,13 @@ OFFLINE = ["scikit-fuzzy", "pyarrow", "matplotlib"]
 CLUSTER = ["dask", "distributed"]
 PEERS = ["scikit-image", "statsmodels"]
 ROBOTS = ["mujoco>=3.3"]
+ORACLE = ["pin>=3"]  # Pinocchio: what tests and benchmarks of arms compare with
 SWEEP = ["optuna>=5", "pyarrow", "matplotlib"]
 # Jazzy for machines without it: wheels of the real thing (x86-64 Linux, CPython 3.10 to 3.14)
 ROS = [
     "ros-jazzy-rclpy[fastrtps]",
     "ros-jazzy-std-msgs",
+    "ros-jazzy-std-srvs",
     "ros-jazzy-sensor-msgs",
     "ros-jazzy-trajectory-msgs",
     "ros-jazzy-diagnostic-msgs",
@@ -27,6 +29,7 @@ ROS = [
 EXTRAS = {
     "analysis": FIGURES,  # fpt report, demo, gain --plot
     "sweep": SWEEP,  # fpt sweep, tune
+    "compare": sorted({*FIGURES, *SWEEP}),  # fpt compare
     "export": ["pandas", "pyarrow"],  # fpt export, fpt_ros.load
     "denoise": OFFLINE,  # fpt denoise
     "thesis": sorted({*FIGURES, *OFFLINE}),  # fpt reproduce
@@ -47,7 +50,7 @@ EXTRAS = {
         "pandas",
         "setuptools<80",
         "wheel",
-        *sorted({*FIGURES, *OFFLINE, *SWEEP, *CLUSTER, *PEERS, *ROBOTS}),
+        *sorted({*FIGURES, *OFFLINE, *SWEEP, *CLUSTER, *PEERS, *ROBOTS, *ORACLE}),
     ],
     "lint": ["ruff", "mypy", "pre-commit"],
     "docs": ["sphinx", "furo", "myst-parser"],
@@ -78,6 +81,8 @@ setup(
     package_data={
         "fpt_ros": ["py.typed"],
         "fpt_ros.analysis": ["*.html.j2", "*.css"],
+        "fpt_ros.compare": ["*.html.j2"],
+        "fpt_ros.analysis.plots": ["*.js"],
         "fpt_ros.thesis": ["*.html.j2"],
         "fpt_ros.nodes": ["*.xml"],
         "fpt_ros.plants.mujoco": ["arms/*.xml"],
@@ -133,9 +138,11 @@ setup(
             "kapitza_listing = fpt_ros.plants.kapitza:LISTING",
             "kapitza_with_gravity = fpt_ros.plants.kapitza:WITH_GRAVITY",
             "lorenz = fpt_ros.plants.lorenz:MODEL",
+            "lorenz_incomplete = fpt_ros.plants.lorenz:INCOMPLETE",
             "mimo_affine = fpt_ros.plants.mimo_affine:MODEL",
             "mujoco = fpt_ros.plants.mujoco.model:MODEL",
             "mujoco_diagonal = fpt_ros.plants.mujoco.diagonal:MODEL",
+            "mujoco_linear = fpt_ros.plants.mujoco.linear:MODEL",
             "siso_affine = fpt_ros.plants.siso_affine:MODEL",
             "spherical_affine = fpt_ros.plants.spherical_pendulum:AFFINE_MODEL",
             "spherical_fully_fuzzy = fpt_ros.plants.spherical_pendulum:FULLY_FUZZY",
@@ -147,11 +154,16 @@ setup(
         ],
         "fpt_ros.trajectories": [
             "blended_sines = fpt_ros.trajectories.blended_sines:BLENDED_SINES",
+            "chirp = fpt_ros.trajectories.chirp:CHIRP",
             "constant = fpt_ros.trajectories.constant:CONSTANT",
             "cosines = fpt_ros.trajectories.cosines:COSINES",
             "fitzhugh_nagumo = fpt_ros.trajectories.fitzhugh_nagumo:FITZHUGH_NAGUMO",
+            "minimum_jerk = fpt_ros.trajectories.minimum_jerk:MINIMUM_JERK",
+            "recorded = fpt_ros.trajectories.recorded:RECORDED",
             "sine = fpt_ros.trajectories.sine:SINE",
             "spline = fpt_ros.trajectories.spline:SPLINE",
+            "step = fpt_ros.trajectories.step:STEP",
+            "waypoints = fpt_ros.trajectories.waypoints:WAYPOINTS",
         ],
         "fpt_ros.relaxations": [
             "feedback_pd = fpt_ros.relaxations.feedback_pd:FEEDBACK_PD",
@@ -166,8 +178,13 @@ setup(
         "fpt_ros.compensators": [
             "disturbance_observer = fpt_ros.compensators.disturbance_observer:DISTURBANCE_OBSERVER",
             "incremental = fpt_ros.compensators.incremental:INCREMENTAL",
+            "l1 = fpt_ros.compensators.l1:L1",
+            "model_free = fpt_ros.compensators.model_free:MODEL_FREE",
             "momentum_observer = fpt_ros.compensators.momentum_observer:MOMENTUM_OBSERVER",
             "none = fpt_ros.compensators.none:NONE",
+            "sliding_mode = fpt_ros.compensators.sliding_mode:SLIDING_MODE",
+            "state_observer = fpt_ros.compensators.state_observer:STATE_OBSERVER",
+            "super_twisting = fpt_ros.compensators.super_twisting:SUPER_TWISTING",
             "time_delay = fpt_ros.compensators.time_delay:TIME_DELAY",
         ],
         "fpt_ros.disturbances": [
@@ -176,24 +193,50 @@ setup(
             "lugre = fpt_ros.disturbances.lugre:LUGRE",
             "sine_noise = fpt_ros.disturbances.sine_noise:SINE_NOISE",
         ],
+        "fpt_ros.integrators": [
+            "dopri5 = fpt_ros.integrators.dopri5:DOPRI5",
+            "explicit_euler = fpt_ros.integrators.explicit_euler:EXPLICIT_EULER",
+            "rk4 = fpt_ros.integrators.rk4:RK4",
+            ("semi_implicit_euler = fpt_ros.integrators.semi_implicit_euler:SEMI_IMPLICIT_EULER"),
+        ],
+        "fpt_ros.sensor_disturbances": [
+            "biased = fpt_ros.disturbances.sensors.biased:BIASED",
+            "bursts = fpt_ros.disturbances.sensors.bursts:BURSTS",
+            "impulses = fpt_ros.disturbances.sensors.impulses:IMPULSES",
+            "lagging = fpt_ros.disturbances.sensors.lagging:LAGGING",
+            "lost = fpt_ros.disturbances.sensors.lost:LOST",
+            "quantised = fpt_ros.disturbances.sensors.quantised:QUANTISED",
+        ],
+        "fpt_ros.actuator_disturbances": [
+            "dead_zone = fpt_ros.disturbances.actuators.dead_zone:DEAD_ZONE",
+            "dropouts = fpt_ros.disturbances.actuators.dropouts:DROPOUTS",
+            "imprecise = fpt_ros.disturbances.actuators.imprecise:IMPRECISE",
+            "lag = fpt_ros.disturbances.actuators.lag:LAG",
+            "saturation = fpt_ros.disturbances.actuators.saturation:SATURATION",
+        ],
         "fpt_ros.transformations": [
             "none = fpt_ros.transformations.none:NONE",
             "atanh = fpt_ros.transformations.atanh:ATANH",
+            "rotation = fpt_ros.transformations.rotation:ROTATION",
             "rfpt = fpt_ros.transformations.rfpt:RFPT",
             "sgfpt = fpt_ros.transformations.sgfpt:SGFPT",
             "stretched = fpt_ros.transformations.stretched:STRETCHED",
         ],
         "fpt_ros.tuning": [
+            "damped = fpt_ros.tuning.pseudo_inverse:DAMPED",
             "fixed_point = fpt_ros.tuning.fixed_point:FIXED_POINT",
             "gain = fpt_ros.tuning.gain:CALCULATED",
             "gram_schmidt = fpt_ros.tuning.gram_schmidt:GRAM_SCHMIDT",
             "none = fpt_ros.tuning.none:NONE",
             "lyapunov = fpt_ros.tuning.lyapunov:LYAPUNOV",
+            "moore_penrose = fpt_ros.tuning.pseudo_inverse:MOORE_PENROSE",
             "projection = fpt_ros.tuning.projection:PROJECTION",
             "slotine_li = fpt_ros.tuning.slotine_li:SLOTINE_LI",
+            "truncated_svd = fpt_ros.tuning.truncated_svd:TRUNCATED_SVD",
             "weights = fpt_ros.tuning.weights:TUNED_WEIGHTS",
         ],
         "fpt_ros.filters": [
+            "adaptive_kalman = fpt_ros.denoising.streaming.adaptive_kalman:ADAPTIVE_KALMAN",
             "adaptive_savgol = fpt_ros.denoising.streaming.adaptive_savgol:ADAPTIVE_SAVGOL",
             "alpha_beta_gamma = fpt_ros.denoising.streaming.alpha_beta_gamma:ALPHA_BETA_GAMMA",
             "butterworth = fpt_ros.denoising.streaming.butterworth:BUTTERWORTH",

@@ -11,6 +11,7 @@ from fpt_ros.errors import BadInput
 MODULES = {
     "analysis": ("matplotlib", "jinja2"),
     "sweep": ("matplotlib", "pyarrow", "optuna"),
+    "compare": ("matplotlib", "jinja2", "optuna"),
     "export": ("pandas", "pyarrow"),
     "denoise": ("matplotlib", "pyarrow", "skfuzzy"),
     "thesis": ("matplotlib", "jinja2", "pyarrow", "skfuzzy"),

@@ -16,7 +16,7 @@ from fpt_ros.messages.cdr import Codec, MalformedMessage
 from fpt_ros.messages.frames import SECOND, Command
 from fpt_ros.messages.topics import COMMAND, DEPTH, JOINT_STATES
 from fpt_ros.nodes.process import report_progress
-from fpt_ros.nodes.qos import LATEST
+from fpt_ros.nodes.qos import heard_qos
 from fpt_ros.nodes.recorded_until import RECORDED_UNTIL, TIME, decode_time
 from fpt_ros.nodes.stage_node import ParameterisedNode
 from fpt_ros.runs.latency import HISTOGRAM, LARGEST, MISSED, Histogram
@@ -52,9 +52,10 @@ class PlantNode(ParameterisedNode):
         self._misses = 0
         self._latencies: list[float] = []
         self._histogram = Histogram()
-        self.subscribe_raw(COMMAND.name, COMMAND.type, LATEST, self._on_command)
+        qos = heard_qos(self._realtime)
+        self.subscribe_raw(COMMAND.name, COMMAND.type, qos, self._on_command)
         if self._awaits_recorder:
-            self.subscribe_raw(RECORDED_UNTIL, TIME, 1, self._on_recorded)
+            self.subscribe_raw(RECORDED_UNTIL, TIME, qos, self._on_recorded)
 
     def begin(self) -> None:
         """Publish cycle 0, where a recorder is awaited as soon as it says that it has begun."""
@@ -70,23 +71,24 @@ class PlantNode(ParameterisedNode):
         self._sent_at.append(monotonic())
         self.send(self.stage.measure(self._stamp, self._cycle))
 
-    def _on_command(self, data: bytes) -> None:
+    def _on_command(self, data: bytes) -> bool:
         try:
             command = self.stage.admit(COMMAND, self._decode(data))
         except (MalformedMessage, BadInput) as error:
-            self.ignore(error)
-            return
+            self.ignore(str(error))
+            return False
         assert isinstance(command, Command)
         if self._realtime and command.stamp > self._timed:
             self._time(command.stamp)
         if command.stamp != self._stamp or command is self._command:
-            return
+            return False
         repeated = self._command is not None and self._command.stamp == command.stamp
         self._command = command
         if self._realtime:
             self._start_clock()
         elif not repeated:
             self._end_cycle(command)
+        return True
 
     def _start_clock(self) -> None:
         """Real time begins when cycle 0 has gone around, and is recorded: all are there then."""
@@ -144,19 +146,25 @@ class PlantNode(ParameterisedNode):
             return False
         return self._recorded < self._stamp - WINDOW * self.stage.cycle_time
 
-    def _on_recorded(self, data: bytes) -> None:
+    def _on_recorded(self, data: bytes) -> bool:
+        try:
+            until = decode_time(data)
+        except MalformedMessage as error:
+            self.ignore(str(error))
+            return False
         if self._stamp < 0:
             self._start()
-        self._recorded = max(self._recorded, decode_time(data))
+        self._recorded = max(self._recorded, until)
         if self._realtime:
             self._start_clock()
         if not self._held_back:
-            return
+            return True
         if self._cycle == self.stage.cycles:
             self.finished = self._recorded >= self._stamp
         elif not self._behind():
             self._held_back = False
             self._publish_cycle()
+        return True
 
     def housekeeping(self) -> None:
         """Progress; and a plant that comes second does not start."""

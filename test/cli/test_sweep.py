@@ -69,7 +69,7 @@ def test_goes_on_where_it_was_ended(tmp_path, how):
     before = journal(directory)
     assert 5 <= len(before) < count
     with (directory / "journal.jsonl").open("ab") as file:
-        file.write(b'[99,-4.0,"comp')  # as if killed within a write
+        file.write(b'[299,-4.0,"comp')  # as if killed within a write
     result = go_on(directory, count)
     after = journal(directory)
     assert after[: len(before)] == before

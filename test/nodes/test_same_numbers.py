@@ -58,6 +58,7 @@ SEPARATE = [
     ("tora", "adaptive", 16 if samples.whole else 1, ()),
     ("tora", "nonadaptive", 1, ("--namespace", "robot1")),
     ("vdp_rfpt", "adaptive", 6 if samples.whole else 1, ()),
+    ("panda", "adaptive", 16 if samples.whole else 0.5, ()),
     ("swing", "adaptive", 0.1, ("--set", "trajectory_generator.time_sharing=[0.02, 0.005]")),
 ]
 
