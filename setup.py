@@ -27,7 +27,7 @@ ROS = [
     "ros-jazzy-diagnostic-msgs",
 ]
 EXTRAS = {
-    "analysis": FIGURES,  # fpt report, demo, gain --plot
+    "analysis": [*FIGURES, "bokeh>=3.9"],  # fpt report, demo, gain --plot
     "sweep": SWEEP,  # fpt sweep, tune
     "compare": sorted({*FIGURES, *SWEEP}),  # fpt compare
     "export": ["pandas", "pyarrow"],  # fpt export, fpt_ros.load
@@ -48,6 +48,8 @@ EXTRAS = {
         "colcon-common-extensions",
         "psutil",
         "pandas",
+        "bokeh>=3.9",
+        "websockets",  # drives a browser
         "setuptools<80",
         "wheel",
         *sorted({*FIGURES, *OFFLINE, *SWEEP, *CLUSTER, *PEERS, *ROBOTS, *ORACLE}),

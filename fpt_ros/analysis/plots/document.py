@@ -1,5 +1,6 @@
 """All plots of a page, and what it has to hold for them."""
 
+import re
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from importlib.resources import files
@@ -9,7 +10,8 @@ from bokeh.embed import components
 from bokeh.events import DocumentReady
 from bokeh.layouts import gridplot
 from bokeh.model import Model
-from bokeh.models import CustomJS, Range1d
+from bokeh.models import BoxZoomTool, CustomJS, Range1d
+from bokeh.models.tools import ToolProxy
 from bokeh.resources import Resources
 
 from fpt_ros.analysis.panels import Curve, Panels, Span
@@ -33,7 +35,9 @@ class Plots:
 
 
 def plots(figures: Mapping[str, Panels]) -> Plots:
-    """Plots of figures, at least one, by name; those over time show one window of it."""
+    """Plots of figures by name; those over time show one window of it."""
+    if not figures:
+        return Plots("", "", {})
     document, pool = Document(), Pool()
     for panels in figures.values():
         for curve in _timed(panels):
@@ -46,16 +50,39 @@ def plots(figures: Mapping[str, Panels]) -> Plots:
         alone = panels.time and not panels.linked
         span = _span([panels]) if alone else whole
         drawing = Drawing(panels, pool, home_range(span, bounds="auto"))
-        root = roots[name] = gridplot(
+        root = gridplot(
             drawing.grid(),
             sizing_mode="stretch_width",
             toolbar_location="right",
             toolbar_options={"logo": None},
         )
+        zooms = [tool for tool in root.toolbar.tools if isinstance(tool, ToolProxy)]
+        root.toolbar.active_drag = next(t for t in zooms if isinstance(t.tools[0], BoxZoomTool))
         _link(document, root, drawing, home_range(span) if alone else common)
         document.add_root(root)
+        roots[name] = root
     script, places = components(roots)
-    return Plots(Resources(mode="inline", components=["bokeh"]).render_js(), script, places)
+    names = _Names()
+    return Plots(
+        Resources(mode="inline", components=["bokeh"]).render_js(),
+        names.stable(script),
+        {name: names.stable(place) for name, place in places.items()},
+    )
+
+
+class _Names:
+    """Numbers in the place of Bokeh's random names, so that the same runs give the same file."""
+
+    _random = re.compile(r"[0-9a-f]{8}(?:-[0-9a-f]{4}){3}-[0-9a-f]{12}")
+
+    def __init__(self) -> None:
+        self._known: dict[str, str] = {}
+
+    def stable(self, text: str) -> str:
+        """The text with every random name replaced, the same by the same."""
+        return self._random.sub(
+            lambda found: self._known.setdefault(found[0], f"plots-{len(self._known)}"), text
+        )
 
 
 def _timed(panels: Panels) -> Iterator[Curve]:

@@ -78,7 +78,10 @@ def part(
     inner = judge.weights(general, doubt * library.WIDE)
     estimate = weight @ np.array([member.estimate for member in last])
     if len(y) < doubts.SHORT and doubts.hardly_told(y, present, judge, estimate):
-        weight, estimate = (np.array([member.name == library.UNCHANGED for member in last]) * 1.0, y)
+        weight, estimate = (
+            np.array([member.name == library.UNCHANGED for member in last]) * 1.0,
+            y,
+        )
     impulses = present - judge.noise.inlier(y - estimate, present)
     estimate = np.where(doubts.bursts(impulses), y, estimate)
     return Part(

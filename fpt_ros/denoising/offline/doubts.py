@@ -2,7 +2,8 @@
 
 A model that does not fit the signal explains the misfit by impulses, and so can win against the
 record as it is. But impulses come alone: of 208 records with impulses, or with tails as heavy,
-none had three in a row or a fifth of all samples around one place, and all models that had did harm.
+none had three in a row or a fifth of all samples around one place, and all models that had did
+harm.
 
 In a short record noise that would be nearly half of the variance cannot be told from a signal as
 rough: whatever is taken away may be the signal.
