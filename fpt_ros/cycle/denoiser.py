@@ -4,7 +4,7 @@ import math
 from typing import NamedTuple
 
 from fpt_ros.cycle import healing
-from fpt_ros.cycle.healing import HealingConstants, heal, keep_estimate
+from fpt_ros.cycle.healing import HEALING, HealingConstants, heal, keep_estimate
 from fpt_ros.cycle.joints import Entrance
 from fpt_ros.cycle.records import Layout
 from fpt_ros.cycle.rows import Commanded, Measured, StateEstimateRow, no_command
@@ -182,8 +182,10 @@ class Denoiser(Stage):
         """
         frame = super().admit(topic, frame)
         if isinstance(frame, JointStates) and self._needs_velocity:
-            for name, velocity in zip(frame.names, frame.velocity, strict=True):
-                if math.isnan(velocity):
+            heals = word(self.values, HEALING.name) != "none"
+            motions = zip(frame.names, frame.position, frame.velocity, strict=True)
+            for name, position, velocity in motions:
+                if math.isnan(velocity) and not (heals and math.isnan(position)):
                     raise BadInput(
                         f"{self.name}, joint_states: there is no velocity of {name}, and "
                         f"{self.name}.method none takes what is measured: finite_difference finds "

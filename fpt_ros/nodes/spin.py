@@ -126,7 +126,7 @@ def spin(nodes: Sequence[LoopNode], stopped: Callable[[], bool], context: Contex
     served = list(zip(cycle(executors), nodes, strict=False))
     for executor, node in served:
         executor.add_node(node)
-    hot = wait_set or _PlainExecutor(executors[0])
+    hot = wait_set or _PlainExecutor(executors[0], nodes)
     services = _Services(served)
     for node in nodes:
         node.begin()
@@ -161,8 +161,10 @@ class _PlainExecutor:
 
     patience = 0.0
 
-    def __init__(self, executor: SingleThreadedExecutor) -> None:
+    def __init__(self, executor: SingleThreadedExecutor, nodes: Sequence[LoopNode]) -> None:
         self._executor = executor
+        for node in nodes:
+            node.loop_group.is_open = True
 
     def wait_and_dispatch(self, timeout: float) -> bool:
         """As of the wait set; what it does not know is when the loop is quiet."""

@@ -7,7 +7,9 @@ from time import monotonic
 
 import psutil
 import pytest
-from command import fpt, fpt_json, start_fpt
+from command import forked_fpt as fpt
+from command import forked_fpt_json as fpt_json
+from command import start_fpt
 from watcher import watcher
 
 from fpt_ros.bags.reader import read_run

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 import samples
-from command import forked_fpt_json, fpt, fpt_json
+from command import forked_fpt, forked_fpt_json
 
 from fpt_ros.bags.reader import read_run
 from fpt_ros.experiments.experiment import available, load
@@ -53,7 +53,7 @@ SEPARATE = [
 
 def compare(tmp_path, common, options):
     engine = forked_fpt_json("simulate", *common, "--record", tmp_path / "engine")
-    graph = fpt_json("run", *common, *options, "--record", tmp_path / "graph")
+    graph = forked_fpt_json("run", *common, *options, "--record", tmp_path / "graph")
     assert graph["engine"] == "graph"
     assert graph["tracking"] == engine["tracking"]
     assert graph["chatter"] == engine["chatter"]
@@ -90,7 +90,7 @@ def test_noise_and_settings_reach_the_nodes(tmp_path):
         "fpt_deformer.approximate.m=12",
     )
     forked_fpt_json("simulate", *common, *settings, "--record", tmp_path / "engine")
-    fpt_json("run", *common, *settings, "--record", tmp_path / "graph")
+    forked_fpt_json("run", *common, *settings, "--record", tmp_path / "graph")
     run = read_run(tmp_path / "graph")
     identical(read_run(tmp_path / "engine"), run)
     assert run.parameters["fpt_deformer"]["approximate.m"] == 12.0
@@ -98,7 +98,7 @@ def test_noise_and_settings_reach_the_nodes(tmp_path):
 
 
 def test_every_cycle_of_every_topic_is_recorded(tmp_path):
-    fpt_json("run", "vdp_rfpt", "--duration", 2, "--record", tmp_path / "bag")
+    forked_fpt_json("run", "vdp_rfpt", "--duration", 2, "--record", tmp_path / "bag")
     run = read_run(tmp_path / "bag")
     assert run.info["complete"] == "true"
     assert set(run.topics) == {"joint_states", "state_estimate", "desired", "tuning", "command"}
@@ -111,7 +111,7 @@ def test_recording_of_a_graph_opens_elsewhere(tmp_path):
     from rosbags.highlevel import AnyReader
     from rosbags.typesys import Stores, get_typestore
 
-    fpt_json("run", "tora", "--duration", 1, "--record", tmp_path / "bag")
+    forked_fpt_json("run", "tora", "--duration", 1, "--record", tmp_path / "bag")
     with AnyReader([tmp_path / "bag"], default_typestore=get_typestore(Stores.ROS2_JAZZY)) as bag:
         counts = {connection.topic: connection.msgcount for connection in bag.connections}
         connections = [c for c in bag.connections if c.topic == "/command"]
@@ -128,7 +128,7 @@ def test_recording_of_a_graph_opens_elsewhere(tmp_path):
 
 
 def test_nothing_is_recorded_unless_asked(tmp_path):
-    done = fpt("run", "tora", "--duration", 0.5, "--json", cwd=tmp_path)
+    done = forked_fpt("run", "tora", "--duration", 0.5, "--json", cwd=tmp_path)
     assert done.returncode == 0
     assert '"bag": null' in done.stdout
     assert list(tmp_path.iterdir()) == []

@@ -6,7 +6,7 @@ from itertools import chain
 
 import pytest
 import samples
-from command import forked_fpt, fpt
+from command import forked_fpt
 
 from fpt_ros.thesis.chapters import chapters
 from fpt_ros.thesis.claim import STATUSES
@@ -26,7 +26,7 @@ def made(tmp_path_factory):
     out.mkdir()
     (out / "index.html").write_text("an older page")
     some = [] if samples.whole else [word for name in QUICK for word in ("--claim", name)]
-    done = fpt("reproduce", "--chapter", 3, *some, "--out", out, "--json", timeout=280.0)
+    done = forked_fpt("reproduce", "--chapter", 3, *some, "--out", out, "--json")
     assert done.returncode == 0, done.stderr
     return out, json.loads(done.stdout), done.stderr
 
