@@ -151,6 +151,8 @@ class Recorder(LoopNode):
                     stamp = arrivals.stamp(stamp, time_ns())
                 if self._is_unexpected(index, stamp):
                     decode(data)
+                if stamp < 0:
+                    raise MalformedMessage
             except (struct.error, MalformedMessage):
                 self.ignore(f"{name}: {len(data)} bytes that are not a {kind}")
                 return False
