@@ -65,7 +65,9 @@ class Cost:
     def perform(self, key: str) -> int:
         """The number of operations."""
         law = TUNING_LAWS[self.method]
-        constants = law.prepare({p.name: p.default for p in law.parameters if p.default is not None})
+        constants = law.prepare(
+            {p.name: p.default for p in law.parameters if p.default is not None}
+        )
         random = np.random.default_rng(self.size)
         Y = [Counted(x) for x in random.normal(size=self.rows * self.size).tolist()]
         error = [Counted(x) for x in random.normal(size=self.rows).tolist()]

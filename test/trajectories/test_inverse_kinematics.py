@@ -45,7 +45,7 @@ def two_links(x, y):
 def test_the_postures_are_those_of_the_law_of_cosines():
     q, v, a = motion([0.3, 1.2], 3000, direction=2.0)
     wanted = path([0.3, 1.2], 3000, 2.0)
-    assert tip(q).T == pytest.approx(wanted, abs=2e-5)
+    assert pytest.approx(wanted, abs=2e-5) == tip(q).T
     assert q == pytest.approx(np.column_stack(two_links(*wanted.T)), abs=2e-4)
     assert v[1:] == pytest.approx(np.diff(q, axis=0) / DT, abs=1e-9)
     assert np.abs(a).max() < 20.0
@@ -55,12 +55,14 @@ def test_a_redundant_arm_follows_with_the_smallest_steps():
     """Three links in the plane: no motion in the null space of J."""
     links, start = (0.3, 0.2, 0.2), [0.3, 0.8, 0.4]
     q, v, _ = motion(start, 1500, links, direction=2.0)
-    assert tip(q, links).T == pytest.approx(path(start, 1500, 2.0, links=links), abs=3e-5)
+    assert pytest.approx(path(start, 1500, 2.0, links=links), abs=3e-5) == tip(q, links).T
     angles = np.cumsum(q[700])
-    J = np.array([
-        [np.cos(angles[i:]) @ links[i:] for i in range(3)],
-        [np.sin(angles[i:]) @ links[i:] for i in range(3)],
-    ])
+    J = np.array(
+        [
+            [np.cos(angles[i:]) @ links[i:] for i in range(3)],
+            [np.sin(angles[i:]) @ links[i:] for i in range(3)],
+        ]
+    )
     null = np.linalg.svd(J)[2][2]
     assert abs(null @ v[700]) < 0.02 * np.linalg.norm(v[700])
 
@@ -78,10 +80,12 @@ def test_at_a_singularity_the_arm_stretches_and_comes_back():
     assert np.abs(v).max() < 10.0
     lack = (wanted - tip(q).T) / DT
     angles = np.cumsum(q, axis=1)
-    J = np.array([
-        [np.cos(angles) @ LINKS, np.cos(angles[:, 1]) * LINKS[1]],
-        [np.sin(angles) @ LINKS, np.sin(angles[:, 1]) * LINKS[1]],
-    ]).transpose(2, 0, 1)
+    J = np.array(
+        [
+            [np.cos(angles) @ LINKS, np.cos(angles[:, 1]) * LINKS[1]],
+            [np.sin(angles) @ LINKS, np.sin(angles[:, 1]) * LINKS[1]],
+        ]
+    ).transpose(2, 0, 1)
     by_inverse = np.linalg.norm(np.linalg.solve(J, lack[:, :, None]), axis=(1, 2))
     assert by_inverse.max() > 1000.0  # [rad/s]
     assert tip(q)[:, -1] == pytest.approx(wanted[-1], abs=5e-3)

@@ -80,7 +80,7 @@ def test_lyapunov_with_full_matrices():
     Y, e, Q, lam = np.array([[1.0, -2.0, 0.5]]), (0.3, -0.1, 0.0), [5.0, 1.0, 1.0, 2.0], 4.0
     A = np.array([[0.0, 1.0], [-(lam**2), -2.0 * lam]])
     P = solve_continuous_lyapunov(A.T, -np.reshape(Q, (2, 2)))
-    assert A.T @ P + P @ A == pytest.approx(-np.reshape(Q, (2, 2)))
+    assert pytest.approx(-np.reshape(Q, (2, 2))) == A.T @ P + P @ A
     expected = np.linalg.solve(np.reshape(MATRIX, (3, 3)), Y[0]) * (P[1] @ e[:2])
     found = changed("lyapunov", Y, [0.0], e, relaxation=lam, Q_matrix=Q, R_matrix=MATRIX)
     assert found == pytest.approx(expected, rel=1e-9)

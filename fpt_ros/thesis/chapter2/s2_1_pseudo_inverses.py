@@ -41,9 +41,7 @@ def _cost(counts: Mapping[str, int]) -> Verdict:
         f"Only if it is compared with the singular value decomposition, which costs at least "
         f"{svd:.2g} times as much. Y Y^T + mu I by Cholesky's method costs {damped:.2g} times as "
         "much at the least: it is as simple, and never singular.",
-        Table(
-            ("operations in a cycle", *(f"{r} rows, {s} parameters" for r, s in SHAPES)), rows
-        ),
+        Table(("operations in a cycle", *(f"{r} rows, {s} parameters" for r, s in SHAPES)), rows),
     )
 
 
