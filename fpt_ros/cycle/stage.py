@@ -115,6 +115,10 @@ class Stage(ABC):
         entrance = self.entrances.get(topic.name)
         return frame if entrance is None else entrance.take(frame)
 
+    def report(self) -> dict[str, object]:
+        """What a watcher should know of its state now, by name; told on /diagnostics."""
+        return {}
+
     def configure(self, changes: Values) -> None:
         """Change live parameters; what was remembered stays.
 

@@ -103,6 +103,10 @@ class StageNode(ParameterisedNode):
         """A tuner without a method has no inputs, and is not in the loop."""
         return bool(self.stage.inputs)
 
+    def health(self) -> tuple[str, dict[str, object]]:
+        """What the stage reports."""
+        return "running", self.stage.report()
+
     def _receiver(self, index: int, topic: Topic) -> Callable[[bytes], None]:
         take, decode = self._matcher.take, Codec(topic).decode
 
