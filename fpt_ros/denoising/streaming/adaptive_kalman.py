@@ -45,7 +45,7 @@ PARAMETERS = (
     Parameter("members", "filters of the ladder", 14, minimum=2, maximum=40, live=False),
     Parameter("slowest", "bandwidth of the slowest filter", 2.5e-3, unit="rad/sample", above=0.0),
     Parameter("fastest", "bandwidth of the fastest filter", 4.0, unit="rad/sample", above=0.0),
-    Parameter("gate", "standard deviations beyond which a sample may be an impulse", 5.0, above=2.0),
+    Parameter("gate", "standard deviations beyond which it may be an impulse", 5.0, above=2.0),
 )
 
 STATES = 4
