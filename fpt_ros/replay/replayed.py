@@ -91,4 +91,14 @@ class Replay:
             progress(cycle.number + 1)
             if out is not None and not end:
                 out.add(cycle, topic, frame)
-        return Outcome.of(comparison, *recorded.missing, end)
+        return Outcome.of(comparison, *recorded.missing, end, self._late(comparison))
+
+    def _late(self, comparison: Comparison) -> str:
+        """In real time nobody tells whether the recorder was there from the beginning."""
+        first = comparison.first
+        if not self.recorded.realtime or first is None or first.cycle != comparison.begin:
+            return ""
+        return (
+            f"{self.stage.name}: the first answer differs already: the recording may begin after "
+            "the node did, which remembers what was before"
+        )

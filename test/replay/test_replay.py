@@ -266,6 +266,19 @@ def test_in_real_time_what_a_node_had_seen_follows_from_its_answers(tmp_path: Pa
     assert found["parameter_tuner"].cycles == CYCLES - 1
 
 
+def test_a_recorder_that_came_late_to_a_run_in_real_time(tmp_path: Path) -> None:
+    def alter(topic: Topic, frame: Frame) -> Frame | None:
+        return frame if frame.stamp >= 20_000_000 else None
+
+    info = {**INFO, "clock": "realtime"}
+    run = Recorded(recorded(tmp_path / "bag", "tora", 40, alter=alter, info=info))
+    found = rerun(run)["trajectory_generator"]
+    assert found.first is not None
+    assert found.first.cycle == 0
+    (note,) = found.notes
+    assert note.startswith("trajectory_generator: the first answer differs already: the recording")
+
+
 # --- comparing
 
 
