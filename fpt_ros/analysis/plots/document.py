@@ -15,7 +15,8 @@ from bokeh.models.tools import ToolProxy
 from bokeh.resources import Resources
 from bokeh.settings import settings
 
-from fpt_ros.analysis.panels import Curve, Panels, Span
+from fpt_ros.analysis.panel import Curve, Span
+from fpt_ros.analysis.panels import Panels
 from fpt_ros.analysis.plots.drawing import Drawing
 from fpt_ros.analysis.plots.parts import home_range
 from fpt_ros.analysis.plots.pool import Pool
