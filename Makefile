@@ -29,7 +29,7 @@ endif
 NEEDS_demo := ros,analysis
 NEEDS_test := ros,test
 NEEDS_lint := ros,test,lint
-NEEDS_docs := ros,thesis,sweep,export,docs
+NEEDS_docs := ros,analysis,thesis,sweep,export,docs
 NEEDS_bench := ros,test,bench
 NEEDS_setup := ros,test,lint,docs
 
