@@ -21,7 +21,7 @@ from fpt_ros.engine.engine import Engine
 from fpt_ros.experiments.experiment import Experiment, load
 from fpt_ros.messages.cdr import Codec
 from fpt_ros.messages.topics import COMMAND, DESIRED, STATE_ESTIMATE
-from fpt_ros.plants.mujoco.description import ARMS
+from fpt_ros.plants.mujoco.description_file import ARMS
 
 AGREEMENT = 0.01
 DT, RISE, LAMBDA = 1e-3, 2.0, 15.0
