@@ -5,6 +5,7 @@ from collections.abc import Callable
 
 import numpy as np
 import pytest
+import samples
 from frames_collected import Collector
 from whole_loops import CYCLES, assert_engine_equals_stages, assert_identical, finished, load
 
