@@ -1,8 +1,9 @@
 """What of a controller is tuned: the numbers of its laws, found by themselves."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from typing import cast
 
+from fpt_ros.compare.measures import simulate
 from fpt_ros.experiments.experiment import Experiment
 from fpt_ros.experiments.sections import SECTIONS
 from fpt_ros.parameters import Parameter, Value
@@ -18,18 +19,20 @@ WIDTH = 10.0
 LAMBDA_WIDTH = 4.0
 """The rate at which errors decay, from a quarter to four times."""
 
-SHAPE = ("K", "B", "D")
+SHAPE = ("K", "B", "D", "a")
 """Of a transformation: what its gain or scale stands for as well, left as it is."""
 
 ERROR, STEP = "whole.error", "whole.step"
 """What shall be small, and what is limited."""
 
 
-def tuned_parameters(experiment: Experiment) -> tuple[TunedParameter, ...]:
+def tuned_parameters(
+    experiment: Experiment, hold: Sequence[str] = ()
+) -> tuple[TunedParameter, ...]:
     """Gain and scale of the transformation, numbers of compensator and tuner, lambda, and the
-    bandwidth of the filter: those that are not zero.
+    bandwidth of the filter: those that are not zero, and are not held.
     """
-    return tuple(_found(experiment))
+    return tuple(each for each in _found(experiment) if each.target.parameter not in hold)
 
 
 def _found(experiment: Experiment) -> Iterator[TunedParameter]:
@@ -81,11 +84,10 @@ def task_of(
     duration: float | None,
     experiment: Experiment,
     limit: float,
+    hold: Sequence[str],
 ) -> Task:
     """The search for the least error with efforts that step no more than a limit."""
-    from fpt_ros.compare.measures import simulate
-
-    parameters = tuned_parameters(experiment)
+    parameters = tuned_parameters(experiment, hold)
     axes = tuple(parse(f"{p.target}={p.low!r}:{p.high!r}:2") for p in parameters)
     lists = {
         p.target.parameter: tuple(
