@@ -133,7 +133,7 @@ def _page(runs: Sequence[Outline], found: Mapping[str, Chart]) -> str:
         abouts=[_about(run, label) for run, label in zip(runs, run_labels(runs), strict=True)],
         table=content(runs),
         charts=[(chart, drawn.places[name]) for name, chart in shown.items()],
-        library=drawn.library if shown else "",
+        library=drawn.library,
         script=drawn.script,
         films=_films(runs),
         labels=run_labels(runs),

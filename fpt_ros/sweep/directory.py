@@ -9,6 +9,7 @@ from ruamel.yaml import YAML
 from ruamel.yaml.error import YAMLError
 
 from fpt_ros.errors import BadInput
+from fpt_ros.yaml_text import parse
 
 DEFINITION = "sweep.yaml"
 
@@ -52,7 +53,7 @@ def open_directory(
 
 def _compare(definition: Mapping[str, Any], path: Path, kind: str) -> None:
     try:
-        stored = YAML(typ="safe", pure=True).load(path.read_text(encoding="utf-8"))
+        stored = parse(path.read_text(encoding="utf-8"))
     except (OSError, UnicodeDecodeError, YAMLError) as error:
         raise BadInput(f"{path} cannot be read, give a new directory") from error
     if not isinstance(stored, dict):
