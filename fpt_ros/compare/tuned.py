@@ -6,7 +6,6 @@ from typing import cast
 from fpt_ros.compare.measures import simulate
 from fpt_ros.experiments.experiment import Experiment
 from fpt_ros.experiments.sections import SECTIONS
-from fpt_ros.parameters import Parameter, Value
 from fpt_ros.sweep.grid import Space, Target, parse
 from fpt_ros.sweep.job import Job
 from fpt_ros.sweep.tune import Task
@@ -16,8 +15,8 @@ from fpt_ros.transformations import TRANSFORMATIONS
 WIDTH = 10.0
 """A parameter is searched from a tenth of what it is to ten times that."""
 
-LAMBDA_WIDTH = 4.0
-"""The rate at which errors decay, from a quarter to four times."""
+FASTER = 4.0
+"""The rate at which errors decay, lambda, is searched up to so many times what it is."""
 
 SHAPE = ("K", "B", "D", "a")
 """Of a transformation: what its gain or scale stands for as well, left as it is."""
@@ -38,7 +37,9 @@ def tuned_parameters(
 def _found(experiment: Experiment) -> Iterator[TunedParameter]:
     nodes = experiment.nodes
     generator, deformer = nodes["trajectory_generator"], nodes["fpt_deformer"]
-    yield from _one("trajectory_generator", "lambda", generator["lambda"], LAMBDA_WIDTH)
+    rate = cast("float", generator["lambda"])
+    where = Target("trajectory_generator", "lambda")
+    yield TunedParameter(where, rate / WIDTH, rate * FASTER, rate, whole=False)
     kind = TRANSFORMATIONS[str(deformer["transformation"])]
     own = {each.name for each in kind.parameters} - set(SHAPE) if kind.adapts else set()
     own |= {name for name in deformer if name.startswith("compensator.")}
@@ -61,20 +62,11 @@ def _all(node: str, experiment: Experiment, names: set[str]) -> Iterator[TunedPa
     values = experiment.nodes[node]
     for parameter in SECTIONS[node](values):
         if parameter.name in names and parameter.kind == "float" and parameter.live:
-            yield from _one(node, parameter.name, values[parameter.name], WIDTH, parameter)
-
-
-def _one(
-    node: str, name: str, value: Value, width: float, parameter: Parameter | None = None
-) -> Iterator[TunedParameter]:
-    present = float(cast("float", value))
-    if present == 0.0:
-        return
-    low, high = sorted((present / width, present * width))
-    if parameter is not None:
-        low, high = max(low, parameter.minimum), min(high, parameter.maximum)
-    if low < high:
-        yield TunedParameter(Target(node, name), low, high, present, whole=False)
+            present = float(cast("float", values[parameter.name]))
+            low, high = sorted((present / WIDTH, present * WIDTH))
+            low, high = max(low, parameter.minimum), min(high, parameter.maximum)
+            if low < high:
+                yield TunedParameter(Target(node, parameter.name), low, high, present, whole=False)
 
 
 def task_of(
