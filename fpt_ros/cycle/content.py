@@ -19,7 +19,7 @@ from fpt_ros.messages.topics import (
 NUMBERS = {
     JOINT_STATES.name: ("position",),
     STATE_ESTIMATE.name: ("positions", "velocities"),
-    DESIRED.name: ("positions", "velocities"),
+    DESIRED.name: ("positions", "velocities", "accelerations", "combined_error"),
     TUNING.name: ("values",),
     COMMAND.name: ("effort",),
 }
@@ -38,9 +38,11 @@ PLACES = {
 def check_content(who: str, topic: Topic, frame: Frame) -> None:
     """Raise BadInput, which begins with ``who``, where a number of a frame cannot be used.
 
-    The norm of a vector shows at once that all is well, as it mostly is. In ``desired`` a joint
-    whose turn it is not is NaN. An effort may be as large as it likes: it is the plant's to say so.
+    The norm of a vector shows at once that all is well, as it mostly is. An effort may be as large
+    as it likes: it is the plant's to say so.
     """
+    if frame[0] < 0:
+        raise BadInput(f"{who}: the stamp, {frame[0]} ns, is less than 0")
     names, whole = frame[1], cast(tuple[Any, ...], frame)
     for at, needed in PLACES[topic.name]:
         vector: Vector = whole[at]
@@ -50,6 +52,6 @@ def check_content(who: str, topic: Topic, frame: Frame) -> None:
         if len(vector) != len(names):
             raise BadInput(f"{who}: {field} holds {len(vector)} numbers for {len(names)} names")
         for name, value in zip(names, vector, strict=True):
-            absent = math.isnan(value) and (not needed or topic is DESIRED)
+            absent = math.isnan(value) and not needed
             if not (absent or abs(value) < limit):
                 raise BadInput(f"{who}: {field} of {name} is {value:g}, not a usable number")

@@ -71,7 +71,7 @@ def test_interrupted_engine_closes_its_recording(tmp_path):
     process = start_fpt("simulate", "vdp_rfpt", "--duration", 400, "--record", tmp_path / "bag")
     assert "vdp_rfpt adaptive" in process.stderr.readline()  # it has begun
     process.send_signal(signal.SIGINT)
-    _, stderr = process.communicate(timeout=30)
+    _, stderr = process.communicate(timeout=120)
     assert process.returncode == 130, stderr
     assert "interrupted" in stderr
     assert "Traceback" not in stderr

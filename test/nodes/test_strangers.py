@@ -27,9 +27,7 @@ def begun(tmp_path, *options):
 
 
 def ended_unharmed(process, tmp_path):
-    """The run goes on, and has the numbers of the engine; what its nodes said."""
-    with watcher() as graph:
-        graph.wait_for_next()
+    """The run has the numbers of the engine; what its nodes said."""
     process.send_signal(signal.SIGINT)
     _, stderr = process.communicate(timeout=60)
     assert process.returncode == 130, stderr
@@ -53,6 +51,8 @@ def test_a_stranger_says_all_kinds_of_things_on_all_topics(tmp_path):
             for stamp in (200_000_000, 10**9):
                 for data in kinds(topic, stamp).values():
                     somebody.say(topic, data)
+    with watcher() as graph:
+        graph.wait_for_next()
     said = ended_unharmed(process, tmp_path)
     for topic in HEARD:
         assert any(f"messages of /stranger on /{topic.name}" in line for line in said), topic.name
@@ -60,12 +60,13 @@ def test_a_stranger_says_all_kinds_of_things_on_all_topics(tmp_path):
 
 def test_a_flood(tmp_path):
     process = begun(tmp_path)
-    with stranger(HEARD) as somebody:
+    with stranger(HEARD) as somebody, watcher() as graph:
         somebody.match(HEARD)
         data = {topic: Codec(topic).encode(frame(topic, 10**9)) for topic in HEARD}
         for _ in range(FLOOD):
             for topic in HEARD:
                 somebody.say(topic, data[topic])
+        graph.wait_for_stamp(1.5)
     ended_unharmed(process, tmp_path)
 
 

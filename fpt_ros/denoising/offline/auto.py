@@ -75,6 +75,10 @@ def part(
         general = [*general, special[0]]
     last = [judge.mean("general", general, doubt * library.WIDE), *special]
     weight = judge.weights(last, doubt * library.SHARP)
+    favourite = last[int(np.argmax(weight))]
+    if favourite.name == library.TONES and not doubts.leaves_noise(y, present, judge, favourite):
+        last = [member for member in last if member.name != library.TONES]
+        weight = judge.weights(last, doubt * library.SHARP)
     inner = judge.weights(general, doubt * library.WIDE)
     estimate = weight @ np.array([member.estimate for member in last])
     if len(y) < doubts.SHORT and doubts.hardly_told(y, present, judge, estimate):

@@ -18,23 +18,24 @@ The past is forgotten within the memory of the slower one. A sample equal to the
 evidence: an encoder that has not moved on says nothing, for a filter that follows its stairs sees
 no innovation there. Estimates are the weighted means over the ladder.
 
-**Impulses.** A sample that every member misses by more than ``gate`` sigma, and by twice what has
-been seen of late, is kept back. If the next one is as expected without it, it was an impulse; else
-the motion has jumped, and it counts after all. So what a motion does is not rejected twice.
+**Impulses.** A sample that every member misses by more than ``gate`` sigma, and by four times what
+has been seen of late, is kept back. If the next one is off the same way, the motion has jumped, and
+both count; else it was an impulse. So what a motion has done before is not kept back again.
 
-**Missing samples** (not finite) are bridged: the members predict.
+**Missing samples** (not finite) are bridged: the members predict, and what :func:`deviation` tells
+grows as their covariances do.
 
-Before the first sample the motion is taken to be at rest. :mod:`.adaptive_kalman_deviation` tells
-how sure the estimates are.
+Before the first sample the motion is taken to be at rest.
 """
 
 import math
+from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
 
 from fpt_ros.denoising.streaming import ORDER, Filter
-from fpt_ros.denoising.streaming.kalman_bank import steady_gains
+from fpt_ros.denoising.streaming.kalman_bank import steady_gains, steady_prediction
 from fpt_ros.denoising.streaming.three_states import response_of
 from fpt_ros.errors import BadInput
 from fpt_ros.laws import MutableVector, Vector, helper
@@ -44,9 +45,7 @@ PARAMETERS = (
     Parameter("members", "filters of the ladder", 14, minimum=2, maximum=40, live=False),
     Parameter("slowest", "bandwidth of the slowest filter", 2.5e-3, unit="rad/sample", above=0.0),
     Parameter("fastest", "bandwidth of the fastest filter", 4.0, unit="rad/sample", above=0.0),
-    Parameter(
-        "gate", "standard deviations beyond which a sample may be an impulse", 5.0, above=2.0
-    ),
+    Parameter("gate", "standard deviations beyond which it may be an impulse", 5.0, above=2.0),
 )
 
 STATES = 4
@@ -64,18 +63,24 @@ TRACKING = 0.01
 """Relative step of the medians."""
 FADING = 0.5e-3
 """Share of the greatest innovation seen that a sample forgets."""
-BEYOND = 2.0
+MOST_HELD = 4.0
+"""Samples kept back in a row at most."""
+BEYOND = 4.0
 """A sample is suspect beyond so many times the greatest innovation seen of late."""
+UNHEARD = 10.0
+"""Beyond so many times of that limit three samples in a row make a jump, else two."""
 GROWTH = 4.0
 """By which one jump of the motion raises that limit at most."""
 SETTLING = 50.0
 """First samples, of which none is kept back."""
+LONGEST_GAP = 1000
+"""Missing samples [1] over which the deviation grows."""
 ROUNDED = 1e-13
 """Second differences below this share of the samples are 0."""
 
 # places among the constants: shared ones, then by member four gains and these
-_HEADER, _MEMBER = 4, 9
-_REST, _LEVEL, _KEPT, _PRICE, _PRIOR = range(4, _MEMBER)
+_HEADER, _MEMBER = 4, 10
+_REST, _LEVEL, _KEPT, _PRICE, _PRIOR, _BANDWIDTH = range(4, _MEMBER)
 # places in the memory of a coordinate: shared ones, then vectors over the members
 _LAST, _BEFORE, _LSB, _SIGMA, _PEAK, _HELD, _GAP, _COUNT, _SHARED = range(9)
 _EACH = 7
@@ -96,7 +101,8 @@ def prepare(values: Values, n: int, dt: float) -> tuple[float, ...]:
     """Constants: members, gate, order of the response, 1 / dt; then those of each member.
 
     These are four gains, 1 - K, the factor of |e| for sigma, what of the evidence is kept, the
-    price of its innovation's variance over that of the next, and the prior against that one.
+    price of its innovation's variance over that of the next, the prior against that one, and the
+    bandwidth.
     """
     slowest, fastest = number(values, "slowest"), number(values, "fastest")
     if slowest >= fastest:
@@ -110,7 +116,7 @@ def prepare(values: Values, n: int, dt: float) -> tuple[float, ...]:
         rest = 1.0 - float(g[0])
         level = 1.0 / (0.6745 * math.sqrt(innovation_gain(g)))
         kept = 1.0 - min(FORGOTTEN * float(h), MOST_FORGOTTEN)
-        constants += [*map(float, g), rest, level, kept, own - faster, PRIOR * rest]
+        constants += [*map(float, g), rest, level, kept, own - faster, PRIOR * rest, float(h)]
     return tuple(constants)
 
 
@@ -133,38 +139,46 @@ def start(constants: Vector, state: MutableVector, q: Vector, v: Vector) -> None
 
 
 @helper
-def advance(state: MutableVector, x: int, members: int) -> None:
-    """All members predict: the Pascal matrix."""
+def advance(state: MutableVector, x: int, members: int, newest: float) -> float:
+    """All members predict (the Pascal matrix); how far the nearest is from the newest sample."""
+    nearest = math.inf
     for m in range(x, x + members):
         bend, jerk = state[m + 2 * members], state[m + 3 * members]
         state[m] += state[m + members] + bend + jerk
         state[m + members] += 2.0 * bend + 3.0 * jerk
         state[m + 2 * members] = bend + 3.0 * jerk
+        miss = abs(newest - state[m])
+        nearest = miss if miss < nearest else nearest
+    return nearest
 
 
 @helper
 def is_kept_back(
-    constants: Vector, state: MutableVector, first: int, members: int, newest: float
+    constants: Vector,
+    state: MutableVector,
+    first: int,
+    members: int,
+    newest: float,
+    nearest: float,
 ) -> bool:
     """Whether the sample is to wait for the next; one that waited counts if this is far too."""
     x = first + _SHARED
-    nearest = math.inf
-    for m in range(x, x + members):
-        miss = abs(newest - state[m])
-        if miss < nearest:
-            nearest = miss
     limit, seen = constants[1] * state[first + _SIGMA], BEYOND * state[first + _PEAK]
     if limit < seen:
         limit = seen
     settled = state[first + _COUNT] >= SETTLING and state[first + _GAP] == 0.0
-    far, held = settled and nearest > limit, state[first + _HELD] == 1.0
-    if far and not held:
-        state[first + _HELD] = 1.0
+    far, held = settled and nearest > limit, state[first + _HELD]
+    fastest = x + members - 1
+    before, now = state[fastest + 6 * members], newest - state[fastest]
+    enough = 1.0 if nearest < UNHEARD * limit else 2.0
+    goes_on = held >= enough and now * before > 0.5 * before * before
+    if far and not goes_on and held < MOST_HELD:
+        state[first + _HELD] = held + 1.0
         for m in range(x, x + members):
             state[m + 6 * members] = newest - state[m]
         return True
     state[first + _HELD] = 0.0
-    if far:
+    if far and held > 0.0:
         if nearest > GROWTH * limit:
             nearest = GROWTH * limit
         k = _HEADER
@@ -192,6 +206,7 @@ def correct(
     step = 2.0 / (count + 2.0)
     if step < TRACKING:
         step = TRACKING
+    up, down = 1.0 + step, 1.0 - step
     floor = state[first + _LSB] / math.sqrt(12.0)
     sigma = math.inf
     k = _HEADER
@@ -203,22 +218,17 @@ def correct(
         state[m + 3 * members] += constants[k + 3] * e
         state[m + 6 * members] = e
         median, level = state[m + 5 * members], abs(e) * constants[k + _LEVEL]
-        if median == 0.0:
-            median = level
-        elif level > median:
-            median *= 1.0 + step
-        elif median > floor:
-            median *= 1.0 - step
+        median = level if median == 0.0 else median * (up if level > median else down)
+        median = median if median > floor else floor
         state[m + 5 * members] = median
-        if median < sigma:
-            sigma = median
+        sigma = median if median < sigma else sigma
         k += _MEMBER
     last, before = state[first + _LAST], state[first + _BEFORE]
     bend, lsb = abs(newest - 2.0 * last + before), state[first + _LSB]
     near = ROUNDED * (abs(newest) + abs(last) + abs(before))
     if count > 1.0 and bend > near and (lsb == 0.0 or bend < lsb):
         state[first + _LSB] = bend
-    state[first + _SIGMA] = sigma if sigma > floor else floor
+    state[first + _SIGMA] = sigma
     state[first + _BEFORE] = last
     state[first + _LAST] = newest
     state[first + _COUNT] = count + 1.0
@@ -245,9 +255,8 @@ def compare(constants: Vector, state: MutableVector, first: int, members: int) -
 @helper
 def weight_of(evidence: float) -> float:
     """Nearly exp(-evidence / TEMPERATURE); 0 from 8 temperatures on."""
-    w = 1.0 - evidence / (8.0 * TEMPERATURE)
-    if w <= 0.0:
-        return 0.0
+    w = 1.0 - evidence * (0.125 / TEMPERATURE)
+    w = w if w > 0.0 else 0.0
     w *= w
     w *= w
     return w * w
@@ -271,11 +280,11 @@ def update(
         first = c * (_SHARED + _EACH * members)
         x = first + _SHARED
         newest = q[c]
-        advance(state, x, members)
+        nearest = advance(state, x, members, newest)
         if newest - newest != 0.0:  # not finite
             state[first + _GAP] += 1.0
             state[first + _HELD] = 0.0
-        elif not is_kept_back(constants, state, first, members, newest):
+        elif not is_kept_back(constants, state, first, members, newest, nearest):
             moved = newest != state[first + _LAST]
             correct(constants, state, first, members, newest)
             if moved:
@@ -286,8 +295,7 @@ def update(
         for m in range(x + members - 2, x - 1, -1):
             k -= _MEMBER
             evidence += state[m + 4 * members] - constants[k]
-            if evidence < best:
-                best = evidence
+            best = evidence if evidence < best else best
         evidence = total = position = velocity = bend = 0.0
         k = last
         for m in range(x + members - 1, x - 1, -1):
@@ -305,4 +313,51 @@ def update(
         out_response[c] = response_of(constants[2], out_q[c], out_v[c], acceleration)
 
 
-ADAPTIVE_KALMAN = Filter(prepare, state_size, start, update, PARAMETERS)
+def weights(constants: Vector, state: Vector, c: int) -> list[float]:
+    """Weight of each member in the estimates of coordinate c, the slowest first."""
+    members = int(constants[0])
+    at = c * (_SHARED + _EACH * members) + _SHARED + 4 * members
+    evidence = [0.0]
+    for m in range(members - 2, -1, -1):
+        prior = constants[_HEADER + _MEMBER * m + _PRIOR]
+        evidence.append(evidence[-1] + state[at + m] - prior)
+    best = min(evidence)
+    found = [weight_of(each - best) for each in reversed(evidence)]
+    return [w / math.fsum(found) for w in found]
+
+
+@lru_cache(maxsize=4096)
+def covariance(h: float, gap: int) -> NDArray[np.float64]:
+    """Of the scaled states in noise of variance 1, ``gap`` samples after the newest one."""
+    P, noise, F, _ = steady_prediction(STATES, h ** (2 * STATES), 1.0, 1.0)
+    P = P - np.outer(P[:, 0], P[0]) / (1.0 + P[0, 0])
+    for _ in range(gap):
+        P = F @ P @ F.T + noise
+    scale = h ** np.arange(STATES)
+    scaled: NDArray[np.float64] = P * np.outer(scale, scale)
+    return scaled
+
+
+def deviation(constants: Vector, state: Vector, c: int) -> tuple[float, float, float]:
+    """Standard deviations of position, velocity and response of coordinate c, as they are now.
+
+    The variance of the mixture: the mean of the members', and their spread.
+    """
+    members, rate = int(constants[0]), constants[3]
+    first = c * (_SHARED + _EACH * members)
+    gap = min(int(state[first + _GAP]), LONGEST_GAP)
+    sigma, w = state[first + _SIGMA], np.array(weights(constants, state, c))
+    found = []
+    for i, unit in enumerate((1.0, rate, 2.0 * rate * rate)):
+        at = first + _SHARED + i * members
+        x = np.array([state[at + m] for m in range(members)])
+        own = [
+            covariance(constants[_HEADER + _MEMBER * m + _BANDWIDTH], gap)[i, i]
+            for m in range(members)
+        ]
+        spread = float(w @ (x - w @ x) ** 2)
+        found.append(unit * math.sqrt(sigma * sigma * float(w @ np.array(own)) + spread))
+    return found[0], found[1], found[int(constants[2])]
+
+
+ADAPTIVE_KALMAN = Filter(prepare, state_size, start, update, PARAMETERS, deviation)
