@@ -18,6 +18,7 @@ from fpt_ros.cli import (
     info,
     layout,
     listing,
+    params,
     recover,
     replay,
     report,
@@ -80,6 +81,9 @@ def _checked(function: Callable[..., Any], extra: str) -> Callable[..., Any]:
 
 for _name, _function, _extra in COMMANDS:
     app.command(_name, help=_function.__doc__)(_checked(_function, _extra))
+
+
+app.add_typer(params.app, name="params")
 
 
 @app.callback(invoke_without_command=True)

@@ -134,8 +134,9 @@ class LoopNode(Node):
         if now - since >= DIAGNOSTICS_PERIOD:
             self._publish_diagnostics((self.cycles_done - cycles) / (now - since))
             self._reported = now, self.cycles_done
-            for sender in self._senders:
-                sender.look_whether_gone()
+            if self.newest_counts:  # in lockstep nobody can take another's place
+                for sender in self._senders:
+                    sender.look_whether_gone()
 
     def _publish_diagnostics(self, rate: float) -> None:
         summary, values = self.health()
