@@ -96,7 +96,11 @@ class LoopNode(Node):
                 sender.choose(gid)
 
         kind = message_class(ros_type)
-        self.loop_subscriptions.append(self.create_subscription(kind, name, receive, qos, raw=True))
+        self.loop_subscriptions.append(
+            self.create_subscription(
+                kind, name, receive, qos, raw=True, callback_group=self.loop_group
+            )
+        )
 
     def ignore(self, reason: str) -> None:
         """Tell, once a reason, on /rosout and /diagnostics, why a message is not used."""

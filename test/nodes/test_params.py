@@ -25,7 +25,7 @@ def test_parameters_of_a_running_graph(tmp_path):
         assert read(before).nodes["fpt_deformer"]["approximate.m"] == 10.0
 
         # a pair that is valid only together is taken as one
-        done = ask("set", "fpt_deformer", "A=-2e-10", "K=1")
+        done = ask("set", "fpt_deformer", "A=-2e-10", "K=0.9", "D=2")
         assert done.returncode == 0, done.stderr
         assert graph.get_parameter("fpt_deformer", "A") == -2e-10
         done = ask("set", "fpt_deformer", "A=-0.3", "K=1.99")
@@ -34,7 +34,7 @@ def test_parameters_of_a_running_graph(tmp_path):
         assert graph.get_parameter("fpt_deformer", "A") == -2e-10
 
         assert ask("load", before).stdout.splitlines() == [
-            "fpt_deformer.A = -0.1", "fpt_deformer.K = 0.5"
+            "fpt_deformer.A = -0.1", "fpt_deformer.D = 0.6", "fpt_deformer.K = 0.5"
         ]  # fmt: skip
         assert ask("load", before).stdout == ""
         assert ask("dump", "fpt_deformer").stdout == ask("dump", "fpt_deformer").stdout
