@@ -10,9 +10,11 @@ import typer
 
 from fpt_ros import extras
 from fpt_ros.cli import (
+    control,
     demo,
     denoise,
     diff,
+    doctor,
     export,
     gain,
     info,
@@ -61,6 +63,12 @@ COMMANDS: tuple[tuple[str, Callable[..., Any], str], ...] = (
     ("rerun", rerun.rerun, ""),
     ("export", export.export, "export"),
     ("layout", layout.layout, ""),
+    ("doctor", doctor.doctor, ""),
+    ("pause", control.pause, ""),
+    ("resume", control.resume, ""),
+    ("step", control.step, ""),
+    ("stop", control.stop, ""),
+    ("e-stop", control.e_stop, ""),
     ("reproduce", reproduce.reproduce, "thesis"),
     ("demo", demo.demo, "analysis"),
 )

@@ -17,6 +17,7 @@ from rcl_interfaces.srv import (
 from rclpy.context import Context
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.parameter import Parameter as RosParameter
+from std_srvs.srv import Trigger
 
 from fpt_ros.bags.changes import value_of
 from fpt_ros.cycle.stages import STAGES
@@ -95,6 +96,15 @@ class Graph:
         resolve = self._node.resolve_service_name
         return [node for node in STAGES if resolve(f"{node}/set_parameters") in services]
 
+    def others(self, seconds: float) -> list[str]:
+        """Full names of all nodes that are found within a time."""
+        deadline = monotonic() + seconds
+        while monotonic() < deadline:
+            self._executor.spin_once(timeout_sec=0.1)
+        pairs = self._node.get_node_names_and_namespaces()
+        own = self._node.get_fully_qualified_name()
+        return sorted({f"{where.rstrip('/')}/{name}" for name, where in pairs} - {own})
+
     def names(self, node: str) -> list[str]:
         """Names of a node's parameters."""
         listed = self.call(ListParameters, f"{node}/list_parameters", ListParameters.Request())
@@ -150,6 +160,17 @@ class Graph:
         ).result
         if not result.successful:
             raise BadInput(f"{node}: {result.reason}")
+
+    def trigger(self, service: str) -> str:
+        """Call a std_srvs/Trigger; what it answers.
+
+        Raises:
+            RunFailed: it did not succeed.
+        """
+        answer = self.call(Trigger, service, Trigger.Request())
+        if not answer.success:
+            raise RunFailed(f"{service}: {answer.message}")
+        return str(answer.message)
 
     def watch(self, tell: Callable[[Any], bool]) -> None:
         """Hand over changes in flight, as they take effect, until ``tell`` says: enough."""
