@@ -57,7 +57,7 @@ class PlantNode(ParameterisedNode):
         self._misses = 0
         self._latencies: list[float] = []
         self._histogram = Histogram()
-        self._control = RunControl(self, lambda: int(stage.values["step_cycles"]), self._go_on)
+        self._control = RunControl(self, self._step_cycles, self._go_on)
         self._stands_still = False
         qos = heard_qos(self._realtime)
         self.subscribe_raw(COMMAND.name, COMMAND.type, qos, self._on_command)
@@ -147,6 +147,11 @@ class PlantNode(ParameterisedNode):
             self._held_back = True
         else:
             self._begin_cycle()
+
+    def _step_cycles(self) -> int:
+        """How long a step goes on; in a pause a change has not taken effect yet."""
+        name = "step_cycles"
+        return int(self._pending.get(name, self.stage.values[name]))  # type: ignore[arg-type]
 
     def _begin_cycle(self) -> None:
         """The next cycle, if the run is not paused."""

@@ -33,7 +33,9 @@ def test_parameters_of_a_running_graph(tmp_path):
         assert "fixed point" in done.stderr
         assert graph.get_parameter("fpt_deformer", "A") == -2e-10
 
-        assert ask("load", before).stdout.splitlines() == [
+        done = ask("load", before)
+        assert done.returncode == 0, done.stderr
+        assert done.stdout.splitlines() == [
             "fpt_deformer.A = -0.1", "fpt_deformer.D = 0.6", "fpt_deformer.K = 0.5"
         ]  # fmt: skip
         assert ask("load", before).stdout == ""
