@@ -32,7 +32,7 @@ WHERE = "ROS_DOMAIN_ID (--namespace?)"
 FURTHER = 2.0
 """Seconds after the first node in which the others are found."""
 
-PATIENCE = 10.0
+PATIENCE = 30.0
 """Seconds that a node may take to be found, and to answer."""
 
 

@@ -7,6 +7,7 @@ command acts, or the safe effort where it is older than ``command_timeout``.
 
 from collections import deque
 from time import monotonic, time_ns
+from typing import Any
 
 from rclpy.duration import Duration
 
@@ -151,7 +152,8 @@ class PlantNode(ParameterisedNode):
     def _step_cycles(self) -> int:
         """How long a step goes on; in a pause a change has not taken effect yet."""
         name = "step_cycles"
-        return int(self._pending.get(name, self.stage.values[name]))  # type: ignore[arg-type]
+        cycles: Any = self._pending.get(name, self.stage.values[name])
+        return int(cycles)
 
     def _begin_cycle(self) -> None:
         """The next cycle, if the run is not paused."""

@@ -52,6 +52,20 @@ class Watcher:
         self.node.destroy_subscription(subscription)
         assert first.done(), "the graph stands still"
 
+    def stamp_after(self, seconds):
+        """The stamp [ns] of the first command that is so much younger than one seen now."""
+        stamps = []
+        subscription = self.node.create_subscription(
+            JointTrajectory,
+            "/command",
+            lambda m: stamps.append(m.header.stamp.sec * 10**9 + m.header.stamp.nanosec),
+            loop_qos(),
+        )
+        while not stamps or max(stamps) - min(stamps) < seconds * 1e9:
+            self.executor.spin_once(timeout_sec=PATIENCE)
+        self.node.destroy_subscription(subscription)
+        return max(stamps)
+
     def stands_still(self):
         """The stamp [ns] at which a paused graph stands: no other comes for half a second."""
         stamps = []
