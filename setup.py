@@ -27,8 +27,9 @@ ROS = [
     "ros-jazzy-diagnostic-msgs",
 ]
 EXTRAS = {
-    "analysis": FIGURES,  # fpt report, demo, gain --plot
+    "analysis": [*FIGURES, "bokeh>=3.9"],  # fpt report, demo, gain --plot
     "sweep": SWEEP,  # fpt sweep, tune
+    "compare": sorted({*FIGURES, *SWEEP}),  # fpt compare
     "export": ["pandas", "pyarrow"],  # fpt export, fpt_ros.load
     "denoise": OFFLINE,  # fpt denoise
     "thesis": sorted({*FIGURES, *OFFLINE}),  # fpt reproduce
@@ -47,6 +48,8 @@ EXTRAS = {
         "colcon-common-extensions",
         "psutil",
         "pandas",
+        "bokeh>=3.9",
+        "websockets",  # drives a browser
         "setuptools<80",
         "wheel",
         *sorted({*FIGURES, *OFFLINE, *SWEEP, *CLUSTER, *PEERS, *ROBOTS, *ORACLE}),
@@ -80,6 +83,7 @@ setup(
     package_data={
         "fpt_ros": ["py.typed"],
         "fpt_ros.analysis": ["*.html.j2", "*.css"],
+        "fpt_ros.compare": ["*.html.j2"],
         "fpt_ros.analysis.plots": ["*.js"],
         "fpt_ros.thesis": ["*.html.j2"],
         "fpt_ros.nodes": ["*.xml"],
@@ -112,14 +116,17 @@ setup(
             *(f"{node} = fpt_ros.nodes.{node}:main" for node in NODES),
         ],
         "fpt_ros.plants": [
+            "acrobot = fpt_ros.plants.double_pendulum:ACROBOT",
             "cart_beam_hamper = fpt_ros.plants.cart_beam_hamper:PLANT",
             "coupled_masses = fpt_ros.plants.coupled_masses:PLANT",
+            "double_pendulum = fpt_ros.plants.double_pendulum:DOUBLE_PENDULUM",
             "duffing = fpt_ros.plants.duffing:PLANT",
             "fitzhugh_nagumo = fpt_ros.plants.fitzhugh_nagumo:PLANT",
             "kapitza = fpt_ros.plants.kapitza:PLANT",
             "lorenz = fpt_ros.plants.lorenz:PLANT",
             "mimo_affine = fpt_ros.plants.mimo_affine:PLANT",
             "mujoco = fpt_ros.plants.mujoco.plant:PLANT",
+            "pendubot = fpt_ros.plants.double_pendulum:PENDUBOT",
             "siso_affine = fpt_ros.plants.siso_affine:PLANT",
             "spherical_pendulum = fpt_ros.plants.spherical_pendulum:PLANT",
             "swing = fpt_ros.plants.swing:PLANT",
@@ -128,18 +135,22 @@ setup(
             "van_der_pol_second_order = fpt_ros.plants.van_der_pol_second_order:PLANT",
         ],
         "fpt_ros.models": [
+            "acrobot = fpt_ros.plants.double_pendulum:ACROBOT_MODEL",
             "cart_beam_hamper = fpt_ros.plants.cart_beam_hamper:MODEL",
             "coupled_masses = fpt_ros.plants.coupled_masses:MODEL",
+            "double_pendulum = fpt_ros.plants.double_pendulum:MODEL",
             "duffing = fpt_ros.plants.duffing:MODEL",
             "fitzhugh_nagumo = fpt_ros.plants.fitzhugh_nagumo:MODEL",
             "kapitza = fpt_ros.plants.kapitza:LITERAL",
             "kapitza_listing = fpt_ros.plants.kapitza:LISTING",
             "kapitza_with_gravity = fpt_ros.plants.kapitza:WITH_GRAVITY",
             "lorenz = fpt_ros.plants.lorenz:MODEL",
+            "lorenz_incomplete = fpt_ros.plants.lorenz:INCOMPLETE",
             "mimo_affine = fpt_ros.plants.mimo_affine:MODEL",
             "mujoco = fpt_ros.plants.mujoco.model:MODEL",
             "mujoco_diagonal = fpt_ros.plants.mujoco.diagonal:MODEL",
             "mujoco_linear = fpt_ros.plants.mujoco.linear:MODEL",
+            "pendubot = fpt_ros.plants.double_pendulum:PENDUBOT_MODEL",
             "siso_affine = fpt_ros.plants.siso_affine:MODEL",
             "spherical_affine = fpt_ros.plants.spherical_pendulum:AFFINE_MODEL",
             "spherical_fully_fuzzy = fpt_ros.plants.spherical_pendulum:FULLY_FUZZY",
@@ -155,6 +166,9 @@ setup(
             "constant = fpt_ros.trajectories.constant:CONSTANT",
             "cosines = fpt_ros.trajectories.cosines:COSINES",
             "fitzhugh_nagumo = fpt_ros.trajectories.fitzhugh_nagumo:FITZHUGH_NAGUMO",
+            "duffing = fpt_ros.trajectories.duffing:DUFFING",
+            "lorenz = fpt_ros.trajectories.lorenz:LORENZ",
+            "inverse_kinematics = fpt_ros.trajectories.inverse_kinematics:INVERSE_KINEMATICS",
             "minimum_jerk = fpt_ros.trajectories.minimum_jerk:MINIMUM_JERK",
             "recorded = fpt_ros.trajectories.recorded:RECORDED",
             "sine = fpt_ros.trajectories.sine:SINE",
@@ -177,6 +191,7 @@ setup(
             "incremental = fpt_ros.compensators.incremental:INCREMENTAL",
             "l1 = fpt_ros.compensators.l1:L1",
             "model_free = fpt_ros.compensators.model_free:MODEL_FREE",
+            "mrac = fpt_ros.compensators.mrac:MRAC",
             "momentum_observer = fpt_ros.compensators.momentum_observer:MOMENTUM_OBSERVER",
             "none = fpt_ros.compensators.none:NONE",
             "sliding_mode = fpt_ros.compensators.sliding_mode:SLIDING_MODE",
@@ -187,6 +202,7 @@ setup(
         "fpt_ros.disturbances": [
             "none = fpt_ros.disturbances:NONE",
             "bspline = fpt_ros.disturbances.bspline:BSPLINE",
+            "kicks = fpt_ros.disturbances.kicks:KICKS",
             "lugre = fpt_ros.disturbances.lugre:LUGRE",
             "sine_noise = fpt_ros.disturbances.sine_noise:SINE_NOISE",
         ],
@@ -209,6 +225,7 @@ setup(
             "dropouts = fpt_ros.disturbances.actuators.dropouts:DROPOUTS",
             "imprecise = fpt_ros.disturbances.actuators.imprecise:IMPRECISE",
             "lag = fpt_ros.disturbances.actuators.lag:LAG",
+            "response = fpt_ros.disturbances.actuators.response:RESPONSE",
             "saturation = fpt_ros.disturbances.actuators.saturation:SATURATION",
         ],
         "fpt_ros.transformations": [
@@ -233,6 +250,7 @@ setup(
             "weights = fpt_ros.tuning.weights:TUNED_WEIGHTS",
         ],
         "fpt_ros.filters": [
+            "adaptive_kalman = fpt_ros.denoising.streaming.adaptive_kalman:ADAPTIVE_KALMAN",
             "adaptive_savgol = fpt_ros.denoising.streaming.adaptive_savgol:ADAPTIVE_SAVGOL",
             "alpha_beta_gamma = fpt_ros.denoising.streaming.alpha_beta_gamma:ALPHA_BETA_GAMMA",
             "butterworth = fpt_ros.denoising.streaming.butterworth:BUTTERWORTH",

@@ -10,9 +10,11 @@ import typer
 
 from fpt_ros import extras
 from fpt_ros.cli import (
+    compare,
     control,
     demo,
     denoise,
+    diagram,
     diff,
     doctor,
     export,
@@ -27,6 +29,7 @@ from fpt_ros.cli import (
     reproduce,
     rerun,
     robot,
+    robustness,
     run,
     simulate,
     sweep,
@@ -51,10 +54,13 @@ COMMANDS: tuple[tuple[str, Callable[..., Any], str], ...] = (
     ("simulate", simulate.simulate, ""),
     ("sweep", sweep.sweep, "sweep"),
     ("tune", tune.tune, "sweep"),
+    ("compare", compare.compare, "compare"),
     ("run", run.run, ""),
     ("report", report.report, "analysis"),
     ("gain", gain.gain, ""),
     ("robot", robot.robot, "robots"),
+    ("diagram", diagram.diagram, ""),
+    ("robustness", robustness.robustness, "sweep"),
     ("denoise", denoise.denoise, "denoise"),
     ("info", info.info, ""),
     ("recover", recover.recover, ""),

@@ -4,7 +4,7 @@ import math
 from typing import NamedTuple
 
 from fpt_ros.cycle import healing
-from fpt_ros.cycle.healing import HealingConstants, heal, keep_estimate
+from fpt_ros.cycle.healing import HEALING, HealingConstants, heal, keep_estimate
 from fpt_ros.cycle.joints import Entrance
 from fpt_ros.cycle.records import Layout
 from fpt_ros.cycle.rows import Commanded, Measured, StateEstimateRow, no_command
@@ -182,8 +182,10 @@ class Denoiser(Stage):
         """
         frame = super().admit(topic, frame)
         if isinstance(frame, JointStates) and self._needs_velocity:
-            for name, velocity in zip(frame.names, frame.velocity, strict=True):
-                if math.isnan(velocity):
+            heals = word(self.values, HEALING.name) != "none"
+            motions = zip(frame.names, frame.position, frame.velocity, strict=True)
+            for name, position, velocity in motions:
+                if math.isnan(velocity) and not (heals and math.isnan(position)):
                     raise BadInput(
                         f"{self.name}, joint_states: there is no velocity of {name}, and "
                         f"{self.name}.method none takes what is measured: finite_difference finds "
@@ -246,6 +248,17 @@ class Denoiser(Stage):
     def sized(self) -> bool:
         """Whether joints and cycle time are known."""
         return bool(self._n) and self._dt > 0.0
+
+    def report(self) -> dict[str, object]:
+        """Standard deviations of the newest estimates, where the filter knows them."""
+        if self.filter.deviation is None or not self.sized or self.clock[0] < 0:
+            return {}
+        told: dict[str, object] = {}
+        for c, name in enumerate(self._measured.names):
+            found = self.filter.deviation(self.constants.filter, self.memory.filter, c)
+            for what, value in zip(("position", "velocity", "response"), found, strict=True):
+                told[f"deviation of {what} {name}"] = f"{value:.3g}"
+        return told
 
     def step(self, measured: JointStates, command: Command | None = None) -> StateEstimate:
         """Filtered motion at t_k and the response to r_{k-1}; NaN for it in the first cycle."""

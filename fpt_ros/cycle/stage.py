@@ -131,6 +131,10 @@ class Stage(ABC):
             check_content(who, topic, frame)
         return frame
 
+    def report(self) -> dict[str, object]:
+        """What a watcher should know of its state now, by name; told on /diagnostics."""
+        return {}
+
     def configure(self, changes: Values) -> None:
         """Change live parameters; what was remembered stays.
 

@@ -107,6 +107,11 @@ class StageNode(ParameterisedNode):
         """A tuner without a method has no inputs, and is not in the loop."""
         return bool(self.stage.inputs)
 
+    def health(self) -> tuple[str, dict[str, object]]:
+        """What the stage reports."""
+        summary, values = super().health()
+        return summary, {**values, **self.stage.report()}
+
     def _receiver(self, index: int, topic: Topic) -> Callable[[bytes], bool]:
         take, decode = self._matcher.take, Codec(topic).decode
         arrivals = Arrivals() if self._robot and topic is JOINT_STATES else None

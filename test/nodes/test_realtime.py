@@ -1,7 +1,8 @@
 """The graph on the wall clock."""
 
 import psutil
-from command import fpt_json, start_fpt
+from command import forked_fpt_json as fpt_json
+from command import start_fpt
 from mcap_ros2.reader import read_ros2_messages
 from watcher import watcher
 
