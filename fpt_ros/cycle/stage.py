@@ -112,6 +112,11 @@ class Stage(ABC):
         """
 
     @property
+    def heals(self) -> bool:
+        """Whether it goes on where samples are lost."""
+        return False
+
+    @property
     def inputs(self) -> tuple[Input, ...]:
         """Topics that each step needs, in the order of the step's arguments."""
         return ()
@@ -124,7 +129,7 @@ class Stage(ABC):
         """
         entrance = self.entrances.get(topic.name)
         frame = frame if entrance is None else entrance.take(frame)
-        check_content(f"{self.name}, {topic.name}", topic, frame)
+        check_content(f"{self.name}, {topic.name}", topic, frame, self.heals)
         return frame
 
     def configure(self, changes: Values) -> None:
