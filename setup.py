@@ -27,8 +27,9 @@ ROS = [
     "ros-jazzy-diagnostic-msgs",
 ]
 EXTRAS = {
-    "analysis": FIGURES,  # fpt report, demo, gain --plot
+    "analysis": [*FIGURES, "bokeh>=3.9"],  # fpt report, demo, gain --plot
     "sweep": SWEEP,  # fpt sweep, tune
+    "compare": sorted({*FIGURES, *SWEEP}),  # fpt compare
     "export": ["pandas", "pyarrow"],  # fpt export, fpt_ros.load
     "denoise": OFFLINE,  # fpt denoise
     "thesis": sorted({*FIGURES, *OFFLINE}),  # fpt reproduce
@@ -47,6 +48,8 @@ EXTRAS = {
         "colcon-common-extensions",
         "psutil",
         "pandas",
+        "bokeh>=3.9",
+        "websockets",  # drives a browser
         "setuptools<80",
         "wheel",
         *sorted({*FIGURES, *OFFLINE, *SWEEP, *CLUSTER, *PEERS, *ROBOTS, *ORACLE}),
@@ -80,6 +83,7 @@ setup(
     package_data={
         "fpt_ros": ["py.typed"],
         "fpt_ros.analysis": ["*.html.j2", "*.css"],
+        "fpt_ros.compare": ["*.html.j2"],
         "fpt_ros.analysis.plots": ["*.js"],
         "fpt_ros.thesis": ["*.html.j2"],
         "fpt_ros.nodes": ["*.xml"],
@@ -246,6 +250,7 @@ setup(
             "weights = fpt_ros.tuning.weights:TUNED_WEIGHTS",
         ],
         "fpt_ros.filters": [
+            "adaptive_kalman = fpt_ros.denoising.streaming.adaptive_kalman:ADAPTIVE_KALMAN",
             "adaptive_savgol = fpt_ros.denoising.streaming.adaptive_savgol:ADAPTIVE_SAVGOL",
             "alpha_beta_gamma = fpt_ros.denoising.streaming.alpha_beta_gamma:ALPHA_BETA_GAMMA",
             "butterworth = fpt_ros.denoising.streaming.butterworth:BUTTERWORTH",

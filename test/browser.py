@@ -16,7 +16,7 @@ import pytest
 from websockets.sync.client import ClientConnection, connect
 
 COMMANDS = ("chromium", "chromium-browser", "google-chrome")
-PATIENCE = 120.0
+PATIENCE = 100.0
 """Seconds to wait for whatever has to come."""
 
 
@@ -116,6 +116,12 @@ class Page:
         for kind, at in zip(kinds, where, strict=True):
             self.mouse(kind, at, button="left", buttons=1, clickCount=1)
 
+    def click(self, at: tuple[float, float]) -> None:
+        """Press and let go of the left button."""
+        self.mouse("mouseMoved", at)
+        for kind in ("mousePressed", "mouseReleased"):
+            self.mouse(kind, at, button="left", clickCount=1)
+
     def mouse(self, kind: str, at: tuple[float, float], **more: Any) -> None:
         """One event of the mouse."""
         self.call("Input.dispatchMouseEvent", type=kind, x=at[0], y=at[1], **more)
@@ -126,7 +132,7 @@ class Page:
         return base64.b64decode(answer["data"])
 
     def _receive(self) -> dict[str, Any]:
-        message: dict[str, Any] = json.loads(self._socket.recv(PATIENCE))
+        message: dict[str, Any] = json.loads(self._socket.recv(2 * PATIENCE))
         method, given = message.get("method", ""), message.get("params", {})
         self._events.append(method)
         if method == "Runtime.exceptionThrown":

@@ -11,7 +11,7 @@ from fpt_ros.analysis.motions import Motion, Motions
 from fpt_ros.analysis.performance import Performance, joined
 from fpt_ros.analysis.sizes import Size
 from fpt_ros.analysis.spectra import Spectra, Spectrum
-from fpt_ros.analysis.thinner import Thinned, Thinner, Window
+from fpt_ros.analysis.thinner import CAPACITY, Thinned, Thinner, Window
 from fpt_ros.messages.frames import SECOND
 from fpt_ros.parameters import Values
 from fpt_ros.runs.changes import Change
@@ -127,9 +127,11 @@ class Outliner:
 
     Args:
         parameters: of every node.
+        capacity: points of a curve that are kept at most.
     """
 
-    def __init__(self, parameters: Mapping[str, Values]) -> None:
+    def __init__(self, parameters: Mapping[str, Values], capacity: int = CAPACITY) -> None:
+        self._capacity = capacity
         self._about = about = Run({}, parameters, {})
         settled = signals.settle_time(about)
         span = NEAR * (signals.parameter_number(about, "plant_simulator", "dt") or 1e-3)
@@ -176,7 +178,7 @@ class Outliner:
         late = signals.first_settled(self._about, motion.time)
         error = motion.error
         self._errors.setdefault(name, Size()).add(error[late:])
-        self._thinners.setdefault(name, Thinner(5, self._window)).take(
+        self._thinners.setdefault(name, Thinner(5, self._window, self._capacity)).take(
             motion.time,
             motion.nominal,
             motion.position,
@@ -197,7 +199,9 @@ class Outliner:
         window = self._window if (topic, vector) in RESPONSES else None
         for column, name in enumerate(names):
             key = topic, vector, name
-            self._curves.setdefault(key, Thinner(1, window)).take(time, numbers[:, column])
+            self._curves.setdefault(key, Thinner(1, window, self._capacity)).take(
+                time, numbers[:, column]
+            )
 
     def result(self, about: Run, numbers: Summary | None = None) -> Outline:
         """The outline of the run, once it has ended; ``about`` gives all but the topics."""

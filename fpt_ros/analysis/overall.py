@@ -5,6 +5,7 @@ from collections.abc import Mapping
 from typing import cast
 
 from fpt_ros.analysis.metrics import Summary
+from fpt_ros.analysis.sizes import finite
 
 
 def error_of_all(summary: Summary, key: str = "rms_settled") -> float | None:
@@ -24,4 +25,4 @@ def error_of_all(summary: Summary, key: str = "rms_settled") -> float | None:
         return None
     if key.startswith("max"):
         return max(known)
-    return math.sqrt(sum(value * value for value in known) / len(known))
+    return finite(math.hypot(*known) / math.sqrt(len(known)))

@@ -10,6 +10,9 @@ from fpt_ros.bags.reader import play
 from fpt_ros.parameters import Values
 from fpt_ros.runs.chunks import Consumer
 
+FINE = 131_072
+"""Points of a curve: of two minutes at 1 kHz every cycle can be looked at."""
+
 
 def read_summary(path: Path) -> Summary:
     """The numbers of a recorded run.
@@ -36,7 +39,7 @@ def read_outline(path: Path) -> Outline:
     made: list[tuple[Metrics, Performance, Outliner]] = []
 
     def make(parameters: Mapping[str, Values]) -> list[Consumer]:
-        made.append((Metrics(parameters), Performance(parameters), Outliner(parameters)))
+        made.append((Metrics(parameters), Performance(parameters), Outliner(parameters, FINE)))
         return [*made[0]]
 
     run = play(path, make)

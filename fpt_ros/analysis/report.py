@@ -1,11 +1,13 @@
 """The report: one page that holds everything, and the figures and numbers beside it."""
 
+import base64
 import json
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
 from fpt_ros.analysis import pages, signals
+from fpt_ros.analysis.arm.film import film_of
 from fpt_ros.analysis.captions import CAPTIONS
 from fpt_ros.analysis.comparison import baselines, comparison
 from fpt_ros.analysis.figures import Chart, charts
@@ -131,8 +133,9 @@ def _page(runs: Sequence[Outline], found: Mapping[str, Chart]) -> str:
         abouts=[_about(run, label) for run, label in zip(runs, run_labels(runs), strict=True)],
         table=content(runs),
         charts=[(chart, drawn.places[name]) for name, chart in shown.items()],
-        library=drawn.library if shown else "",
+        library=drawn.library,
         script=drawn.script,
+        films=_films(runs),
         labels=run_labels(runs),
         nodes=differences(runs),
         real_time=any(run.latency is not None for run in runs),
@@ -147,6 +150,16 @@ def _title(runs: Sequence[Run]) -> str:
         given = signals.parameter(run, "recorder", "title")
         titles.append(str(given or run.info.get("experiment", "") or "run"))
     return " and ".join(dict.fromkeys(titles))
+
+
+def _films(runs: Sequence[Outline]) -> list[tuple[str, str, str]]:
+    """Label, film and still of every run of an arm, for the page."""
+    found = [(label, film_of(run)) for run, label in zip(runs, run_labels(runs), strict=True)]
+    return [
+        (label, base64.b64encode(film.film).decode(), base64.b64encode(film.still).decode())
+        for label, film in found
+        if film is not None
+    ]
 
 
 def _about(run: Outline, label: str) -> About:

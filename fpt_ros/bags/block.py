@@ -1,6 +1,6 @@
 """Messages as they lie in a file: where they come from, and many of them at once."""
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from typing import NamedTuple
 
@@ -9,26 +9,6 @@ from numpy.typing import NDArray
 
 Rows = NDArray[np.int64]
 """(n, 4) stamp [ns], first byte, byte behind the last, sequence."""
-
-LARGEST_STAMP = (1 << 63) - 1
-"""Nanoseconds; later ones are taken for this."""
-
-
-def as_rows(flat: Sequence[int]) -> Rows:
-    """Stamp, first byte, byte behind the last, sequence of the first message, of the second, ..."""
-    try:
-        return np.array(flat, dtype=np.int64).reshape(-1, 4)
-    except OverflowError:
-        capped = [min(number, LARGEST_STAMP) for number in flat]
-        return np.array(capped, dtype=np.int64).reshape(-1, 4)
-
-
-def gather(data: bytes | memoryview, starts: NDArray[np.int64], size: int) -> NDArray[np.uint8]:
-    """(n, size) bytes from each start on."""
-    if not size or not len(starts):
-        return np.empty((len(starts), size), dtype=np.uint8)
-    pieces = np.ndarray((len(data) - size + 1,), f"V{size}", data, strides=(1,))
-    return pieces[starts].view(np.uint8).reshape(len(starts), size)
 
 
 class Source(NamedTuple):

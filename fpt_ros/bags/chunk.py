@@ -2,14 +2,10 @@
 
 import struct
 import zlib
-from collections.abc import Sequence
 
 import lz4.frame  # type: ignore[import-untyped]
-import numpy as np
 import zstandard
-from numpy.typing import NDArray
 
-from fpt_ros.bags.block import LARGEST_STAMP, Rows, as_rows, gather
 from fpt_ros.bags.records import CHANNEL, HEAD, MESSAGE, MESSAGE_HEAD, SCHEMA
 
 LARGEST = 1 << 31
@@ -18,19 +14,6 @@ LARGEST = 1 << 31
 _HEAD = struct.Struct("<QQQI")
 _MESSAGE = struct.Struct("<BQHIQQ")
 assert _MESSAGE.size == HEAD.size + MESSAGE_HEAD.size
-_FIELDS = np.dtype(
-    [
-        ("opcode", "u1"), ("length", "<u8"), ("channel", "<u2"), ("sequence", "<u4"),
-        ("stamp", "<u8"), ("published", "<u8"),
-    ]
-)  # fmt: skip
-"""The same for numpy."""
-
-Announced = tuple[int, int, int]
-"""Of a schema or channel: opcode, first byte, byte behind the last."""
-
-Split = tuple[list[Announced], dict[int, Rows]]
-"""Schemas and channels, and the messages by channel."""
 
 
 class BadChunk(ValueError):
@@ -96,71 +79,9 @@ def _decompress(compression: bytes, packed: memoryview, size: int) -> bytes:
     raise BadChunk(f"it is compressed by '{compression.decode(errors='replace')}', not known here")
 
 
-def split_by_index(data: bytes, index: Sequence[tuple[int, memoryview]]) -> Split | None:
-    """The same as :func:`split` of a whole chunk, many times faster, by the index behind it.
-
-    Nothing is taken on trust: the messages have to be those of the index, and together with schemas
-    and channels they have to be the chunk. ``None``: they are not, or there is no index.
-
-    Args:
-        data: records of the chunk.
-        index: channel and entries (log time and offset, 8 bytes each) of its message indexes.
-    """
-    entries = [np.frombuffer(raw, dtype="<u8").reshape(-1, 2) for _, raw in index]
-    if not sum(map(len, entries)):
-        return None
-    stamps, offsets = np.concatenate(entries).T
-    if offsets.max() > len(data) - _MESSAGE.size:
-        return None
-    order = np.argsort(offsets, kind="stable")
-    starts = offsets[order].astype(np.int64)
-    heads = gather(data, starts, _MESSAGE.size).view(_FIELDS)[:, 0]
-    channels = np.repeat([channel for channel, _ in index], [len(each) for each in entries])
-    good = (
-        (heads["opcode"] == MESSAGE).all()
-        and (heads["length"] <= len(data)).all()
-        and (heads["channel"] == channels[order]).all()
-        and (heads["stamp"] == stamps[order]).all()
-        and (heads["stamp"] <= LARGEST_STAMP).all()
-    )
-    if not good:
-        return None
-    ends = starts + HEAD.size + heads["length"].astype(np.int64)
-    announced = _between(data, starts, ends)
-    if announced is None:
-        return None
-    whole = np.empty((len(starts), 4), dtype=np.int64)
-    whole[:, 0], whole[:, 1] = heads["stamp"], starts + _MESSAGE.size
-    whole[:, 2], whole[:, 3] = ends, heads["sequence"]
-    rows = {channel: whole[heads["channel"] == channel] for channel in set(channels.tolist())}
-    return announced, rows
-
-
-def _between(
-    data: bytes, starts: NDArray[np.int64], ends: NDArray[np.int64]
-) -> list[Announced] | None:
-    """Schemas and channels in front of, between and behind messages; ``None``: something else."""
-    gaps = np.flatnonzero(np.append(starts, len(data)) != np.append(0, ends))
-    announced: list[Announced] = []
-    for gap in gaps.tolist():
-        at = int(ends[gap - 1]) if gap else 0
-        stop = int(starts[gap]) if gap < len(starts) else len(data)
-        while at < stop:
-            if at + HEAD.size > stop:
-                return None
-            opcode, length = HEAD.unpack_from(data, at)
-            end = at + HEAD.size + length
-            if opcode == MESSAGE:
-                return None
-            if opcode in (SCHEMA, CHANNEL):
-                announced.append((opcode, at + HEAD.size, end))
-            at = end
-        if at != stop:
-            return None
-    return announced
-
-
-def split(data: bytes, whole: bool = True) -> Split:
+def split(
+    data: bytes, whole: bool = True
+) -> tuple[list[tuple[int, int, int]], dict[int, list[int]]]:
     """Schemas and channels of a chunk, and where its messages lie.
 
     Args:
@@ -168,12 +89,13 @@ def split(data: bytes, whole: bool = True) -> Split:
         whole: they have to end with the chunk; else the last one may be cut.
 
     Returns:
-        Schemas and channels; messages by channel.
+        (opcode, first byte, byte behind the last) of schemas and channels; channel -> stamp,
+        first byte, byte behind the last, sequence of its first message, of its second, ...
 
     Raises:
         BadChunk: its records do not follow each other.
     """
-    announced: list[Announced] = []
+    announced: list[tuple[int, int, int]] = []
     rows: dict[int, list[int]] = {}
     at, size = 0, len(data)
     unpack, head, last = _MESSAGE.unpack_from, HEAD.size, size - _MESSAGE.size
@@ -200,4 +122,4 @@ def split(data: bytes, whole: bool = True) -> Split:
         at = end
     if whole and at != size:
         raise BadChunk("its records do not follow each other")
-    return announced, {channel: as_rows(flat) for channel, flat in rows.items()}
+    return announced, rows

@@ -4,7 +4,6 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
-from ruamel.yaml import YAML
 from ruamel.yaml.error import YAMLError
 
 from fpt_ros import __version__
@@ -15,6 +14,7 @@ from fpt_ros.bags.mcap_file import McapFile
 from fpt_ros.bags.metadata import Part, TopicPart
 from fpt_ros.bags.writer import INFO
 from fpt_ros.errors import BadInput
+from fpt_ros.yaml_text import parse
 
 _OURS = Kind("cdr", "", b"", {})
 """A topic that the bag does not have."""
@@ -113,7 +113,7 @@ def _qos(topic: str, kind: Kind) -> Any:
     """Quality of service as the recording has it, or as our topics offer it."""
     text = kind.metadata.get("offered_qos_profiles", "")
     try:
-        found = YAML(typ="safe", pure=True).load(text) if text else None
+        found = parse(text) if text else None
     except (YAMLError, ValueError):
         found = None
     good = isinstance(found, list) and found and isinstance(found[0].get("history"), str)

@@ -60,18 +60,12 @@ class Layout:
         self.size = len(data)
         self.leaves, self.texts = tuple(leaves), dict(texts)
         # padding is not among them: its bytes are not defined
-        mask = np.zeros(self.size, dtype=np.uint8)
-        for start, end in fixed:
-            mask[start:end] = 0xFF
-        # compared in words as wide as the size allows
-        self._word = next(f"u{width}" for width in (8, 4, 2, 1) if self.size % width == 0)
-        self._mask = mask.view(self._word)
-        self._same = (np.frombuffer(data, dtype=np.uint8) & mask).view(self._word)
+        self._fixed = np.concatenate([np.arange(*each) for each in fixed])
+        self._same = np.frombuffer(data, dtype=np.uint8)[self._fixed]
 
     def fits(self, messages: Bytes) -> NDArray[np.bool_]:
-        """Which of the messages (n, size) have this layout; (n, size) in one piece."""
-        words = messages.view(self._word)
-        found: NDArray[np.bool_] = ((words & self._mask) == self._same).all(axis=1)
+        """Which of the messages (n, size) have this layout."""
+        found: NDArray[np.bool_] = (messages[:, self._fixed] == self._same).all(axis=1)
         return found
 
     def numbers(self, messages: Bytes, leaf: Leaf) -> NDArray[Any]:

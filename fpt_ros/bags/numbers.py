@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from fpt_ros.bags import definitions, json_text
 from fpt_ros.bags.bag import Bag
-from fpt_ros.bags.block import Block, Rows, Source, gather
+from fpt_ros.bags.block import Block, Rows, Source
 from fpt_ros.bags.layout import Bytes, Layout, Malformed, layout
 from fpt_ros.errors import BadInput
 
@@ -114,10 +114,11 @@ class _Gatherer:
     def take(self, block: Block, rows: Rows) -> None:
         """The topic's messages of one block."""
         self._stamps.append(rows[:, 0])
+        data = np.frombuffer(block.data, dtype=np.uint8)
         lengths = rows[:, 2] - rows[:, 1]
         for length in np.unique(lengths).tolist():
             at = np.flatnonzero(lengths == length)
-            self._of_one_length(gather(block.data, rows[at, 1], length), at + self._count)
+            self._of_one_length(_rows(data, rows[at, 1], length), at + self._count)
         self._count += len(rows)
 
     def _of_one_length(self, messages: Bytes, at: NDArray[np.int64]) -> None:
@@ -178,6 +179,15 @@ class _Gatherer:
                 )
             )
         return Reading(stamps, parts, self._bad, left_out)
+
+
+def _rows(data: Bytes, starts: NDArray[np.int64], size: int) -> Bytes:
+    """(n, size) bytes from each start on."""
+    if not size or not len(starts):
+        return np.empty((len(starts), size), dtype=np.uint8)
+    windows = np.lib.stride_tricks.sliding_window_view(data, size)
+    rows: Bytes = windows[starts]
+    return rows
 
 
 def _native(numbers: NDArray[Any], is_bool: bool) -> NDArray[Any]:

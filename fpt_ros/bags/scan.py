@@ -3,7 +3,7 @@
 import mmap
 import struct
 import zlib
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from io import BytesIO
 from pathlib import Path
 
@@ -13,7 +13,7 @@ from mcap.exceptions import McapError
 from mcap.records import Attachment, Channel, Metadata, Schema, Statistics
 
 from fpt_ros.bags import chunk, records
-from fpt_ros.bags.block import Block, Kind, Rows, Source, as_rows
+from fpt_ros.bags.block import Block, Kind, Rows, Source
 from fpt_ros.bags.chunk import BadChunk
 from fpt_ros.bags.records import MAGIC, MESSAGE_HEAD, Gap, Record
 from fpt_ros.errors import BadInput
@@ -22,11 +22,10 @@ from fpt_ros.messages.frames import SECOND
 CUT = "the recording was cut"
 DAMAGED = "the recording is damaged"
 
-_INDEX = struct.Struct("<BQHI")
-"""Opcode, length, channel and bytes of the entries of a message index."""
-
 _BATCH = 4096
 """Messages outside of chunks that make a block."""
+
+_LARGEST_STAMP = (1 << 63) - 1
 
 
 class Scan:
@@ -74,11 +73,11 @@ class Scan:
             if step.opcode == records.MESSAGE:
                 count += self._loose(loose, step)
                 if count >= _BATCH:
-                    yield self._block(data, _all_rows(loose))
+                    yield self._block(data, loose)
                     loose, count = {}, 0
             elif step.opcode == records.CHUNK:
                 if count:
-                    yield self._block(data, _all_rows(loose))
+                    yield self._block(data, loose)
                     loose, count = {}, 0
                 yield from self._chunk(step)
             elif step.opcode == 0:
@@ -86,7 +85,7 @@ class Scan:
             else:
                 self._take(step.opcode, data[step.at : step.end], step.start, step.end)
         if count:
-            yield self._block(data, _all_rows(loose))
+            yield self._block(data, loose)
         self.cut = self.cut or not ended
         if not ended and not self.damage:
             self.damage.append(
@@ -124,8 +123,7 @@ class Scan:
         how = "ends in zeros after" if zeros else "was cut in the record that begins at"
         self.damage.append(f"{name} {how} {where}")
         if rest[0] == records.CHUNK:
-            data = chunk.begun(rest[records.HEAD.size :])
-            yield self._parts(data, gap.start, chunk.split(data, whole=False))
+            yield from self._parts(chunk.begun(rest[records.HEAD.size :]), gap.start)
 
     def _loose(self, rows: dict[int, list[int]], step: Record) -> int:
         """A message outside of chunks."""
@@ -144,9 +142,7 @@ class Scan:
     def _chunk(self, step: Record) -> Iterator[Block]:
         body = self._data[step.at : step.end]
         try:
-            data = chunk.unpack(body)
-            found = chunk.split_by_index(data, self._index(step.end)) or chunk.split(data)
-            yield self._parts(data, step.start, found)
+            yield from self._parts(chunk.unpack(body), step.start, whole=True)
         except BadChunk as error:
             first, last = chunk.span(body)
             self.damage.append(
@@ -154,35 +150,28 @@ class Scan:
                 f"{first / SECOND:g} to {last / SECOND:g} s, is damaged: {error}"
             )
 
-    def _index(self, at: int) -> list[tuple[int, memoryview]]:
-        """Channels and entries of the message indexes behind a chunk."""
-        data, found = self._data, []
-        while at + _INDEX.size <= len(data) and data[at] == records.MESSAGE_INDEX:
-            _, length, channel, size = _INDEX.unpack_from(data, at)
-            first, at = at + _INDEX.size, at + records.HEAD.size + length
-            if first + size != at or size % 16 or at > len(data):
-                return []
-            if size:
-                found.append((channel, data[first:at]))
-        return found
-
-    def _parts(self, data: bytes, start: int, found: chunk.Split) -> Block:
-        announced, rows = found
+    def _parts(self, data: bytes, start: int, whole: bool = False) -> Iterator[Block]:
+        announced, rows = chunk.split(data, whole)
         for opcode, at, end in announced:
             self._take(opcode, memoryview(data)[at:end], start)
-        return self._block(data, rows)
+        yield self._block(data, rows)
 
-    def _block(self, data: bytes | memoryview, found: Mapping[int, Rows]) -> Block:
+    def _block(self, data: bytes | memoryview, found: dict[int, list[int]]) -> Block:
         rows: dict[Source, Rows] = {}
-        for channel, own in found.items():
+        for channel, flat in found.items():
             if channel not in self.sources:
                 self._learn_ahead()
             source = self.sources.get(channel)
             if source is None:
                 self.damage.append(
-                    f"{self.path.name}: {len(own)} messages are of a topic that is not named"
+                    f"{self.path.name}: {len(flat) // 4} messages are of a topic that is not named"
                 )
                 continue
+            try:
+                own = np.array(flat, dtype=np.int64).reshape(-1, 4)
+            except OverflowError:
+                capped = [min(number, _LARGEST_STAMP) for number in flat]
+                own = np.array(capped, dtype=np.int64).reshape(-1, 4)
             self.sequences[channel] = int(own[-1, 3]) + 1
             rows[source] = _merged(rows[source], own) if source in rows else own
         return Block(data, rows)
@@ -244,10 +233,6 @@ class Scan:
             if zlib.crc32(self._data[begin:end]) == crc:
                 return
         self.damage.append(f"{self.path.name}: the checksum over {what} is another")
-
-
-def _all_rows(loose: Mapping[int, list[int]]) -> dict[int, Rows]:
-    return {channel: as_rows(flat) for channel, flat in loose.items()}
 
 
 def _merged(first: Rows, second: Rows) -> Rows:

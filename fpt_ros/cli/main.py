@@ -10,6 +10,7 @@ import typer
 
 from fpt_ros import extras
 from fpt_ros.cli import (
+    compare,
     demo,
     denoise,
     diagram,
@@ -50,6 +51,7 @@ COMMANDS: tuple[tuple[str, Callable[..., Any], str], ...] = (
     ("simulate", simulate.simulate, ""),
     ("sweep", sweep.sweep, "sweep"),
     ("tune", tune.tune, "sweep"),
+    ("compare", compare.compare, "compare"),
     ("run", run.run, ""),
     ("report", report.report, "analysis"),
     ("gain", gain.gain, ""),

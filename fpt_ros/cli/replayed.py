@@ -34,19 +34,26 @@ def settings_of(node: str, texts: list[str]) -> dict[str, Value]:
 
 
 def show(bag: Path, outcomes: Mapping[str, Outcome], record: Path | None, json: bool) -> None:
-    """Tell what came of it: by node, or of the whole ``loop``."""
+    """Tell what came of it: by node, or of the whole ``loop``.
+
+    Raises:
+        BadInput: there was nothing to compare.
+    """
+    notes = list(dict.fromkeys(note for one in outcomes.values() for note in one.notes))
+    compared = [one.cycles for one in outcomes.values() if one.cycles]
+    if not compared:
+        raise BadInput(f"{bag} holds nothing to compare: {'; '.join(notes) or 'no answers'}")
     first = min(
         (one.first for one in outcomes.values() if one.first is not None),
         key=lambda one: one.cycle,
         default=None,
     )
-    cycles = min(one.cycles for one in outcomes.values())
     if json:
         print_json(
             {
                 "bag": str(bag),
                 "equal": first is None,
-                "cycles": cycles,
+                "cycles": min(compared),
                 "first_difference": _difference(first),
                 "parts": {name: _part(one) for name, one in outcomes.items()},
                 "record": str(record) if record is not None else None,
@@ -54,9 +61,11 @@ def show(bag: Path, outcomes: Mapping[str, Outcome], record: Path | None, json: 
         )
         return
     out = console()
-    say(bag, dict.fromkeys(note for one in outcomes.values() for note in one.notes))
+    say(bag, notes)
     for name, one in outcomes.items():
-        if one.first is None:
+        if not one.cycles:
+            out.print(f"{name}: nothing to compare", soft_wrap=True)
+        elif one.first is None:
             out.print(f"{name}: {one.cycles} cycles, equal to the last bit", soft_wrap=True)
         else:
             out.print(

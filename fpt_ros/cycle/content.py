@@ -19,7 +19,7 @@ from fpt_ros.messages.topics import (
 NUMBERS = {
     JOINT_STATES.name: ("position",),
     STATE_ESTIMATE.name: ("positions", "velocities"),
-    DESIRED.name: ("positions", "velocities"),
+    DESIRED.name: ("positions", "velocities", "accelerations", "combined_error"),
     TUNING.name: ("values",),
     COMMAND.name: ("effort",),
 }
@@ -38,10 +38,11 @@ PLACES = {
 def check_content(who: str, topic: Topic, frame: Frame, gaps: bool = False) -> None:
     """Raise BadInput, which begins with ``who``, where a number of a frame cannot be used.
 
-    The norm of a vector shows at once that all is well, as it mostly is. In ``desired`` a joint
-    whose turn it is not is NaN. An effort may be as large as it likes: it is the plant's to say so.
-    ``gaps``: samples may be lost, NaN stands for them.
+    The norm of a vector shows at once that all is well, as it mostly is. An effort may be as large
+    as it likes: it is the plant's to say so. ``gaps``: samples may be lost, NaN stands for them.
     """
+    if frame[0] < 0:
+        raise BadInput(f"{who}: the stamp, {frame[0]} ns, is less than 0")
     names, whole = frame[1], cast(tuple[Any, ...], frame)
     for at, needed in PLACES[topic.name]:
         vector: Vector = whole[at]
@@ -51,7 +52,7 @@ def check_content(who: str, topic: Topic, frame: Frame, gaps: bool = False) -> N
         if len(vector) != len(names):
             raise BadInput(f"{who}: {field} holds {len(vector)} numbers for {len(names)} names")
         for name, value in zip(names, vector, strict=True):
-            may_lack = not needed or topic is DESIRED or (gaps and topic is JOINT_STATES)
+            may_lack = not needed or (gaps and topic is JOINT_STATES)
             absent = math.isnan(value) and may_lack
             if not (absent or abs(value) < limit):
                 raise BadInput(f"{who}: {field} of {name} is {value:g}, not a usable number")

@@ -51,7 +51,12 @@ PARAMETERS = (
         maximum=1000,
         live=False,
     ),
-    Parameter("weights", "of the response errors, per controlled coordinate; empty: ones", []),
+    Parameter(
+        "weights",
+        "of the response errors, per controlled coordinate; empty: ones; auto, in an experiment's "
+        "file: 1 / mean diagonal of the response map (M^-1 M^ of an arm) along the motion",
+        [],
+    ),
     Parameter(
         "initial_response",
         "deformed response of the first cycle; empty: the desired one",

@@ -253,6 +253,17 @@ class Denoiser(Stage):
         """Whether joints and cycle time are known."""
         return bool(self._n) and self._dt > 0.0
 
+    def report(self) -> dict[str, object]:
+        """Standard deviations of the newest estimates, where the filter knows them."""
+        if self.filter.deviation is None or not self.sized or self.clock[0] < 0:
+            return {}
+        told: dict[str, object] = {}
+        for c, name in enumerate(self._measured.names):
+            found = self.filter.deviation(self.constants.filter, self.memory.filter, c)
+            for what, value in zip(("position", "velocity", "response"), found, strict=True):
+                told[f"deviation of {what} {name}"] = f"{value:.3g}"
+        return told
+
     def step(self, measured: JointStates, command: Command | None = None) -> StateEstimate:
         """Filtered motion at t_k and the response to r_{k-1}; NaN for it in the first cycle."""
         measured = self._measured.take(measured)

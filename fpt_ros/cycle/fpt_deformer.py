@@ -3,7 +3,7 @@
 import math
 
 from fpt_ros.compensators import COMPENSATORS
-from fpt_ros.cycle.acting import HELD
+from fpt_ros.cycle.acting import HELD, forget
 from fpt_ros.cycle.approximate_model import model_of
 from fpt_ros.cycle.commanding import command_cycle
 from fpt_ros.cycle.deformation import DeformerConstants, DeformerMemory, DeformerWork, apply_tuning
@@ -242,6 +242,10 @@ class FptDeformer(Stage):
                 "denoiser.healing.kind=predict heals it"
             )
         return self.model.trouble(self.coefficients, q) if self.model.trouble is not None else ""
+
+    def forget(self) -> None:
+        """What was learned does not count any more: the next cycle begins anew."""
+        forget(self.memory, len(self.model.coordinates))
 
     def safe_command(self, stamp: int) -> Command:
         """What is commanded where nothing is measured any more, or in a stop."""

@@ -16,7 +16,7 @@ from fpt_ros.cycle.joints import Entrance
 from fpt_ros.cycle.records import Buffer, Layout
 from fpt_ros.errors import BadInput
 from fpt_ros.messages.frames import SECOND, Frame, Names
-from fpt_ros.messages.topics import Topic
+from fpt_ros.messages.topics import DESIRED, Topic
 from fpt_ros.parameters import Parameter, Values, resolve
 
 REALTIME = Parameter("realtime", "on the wall clock instead of in lockstep", False, live=False)
@@ -127,10 +127,18 @@ class Stage(ABC):
         Raises:
             BadInput: a joint is absent, the frame is not whole, or a number is not usable.
         """
-        entrance = self.entrances.get(topic.name)
-        frame = frame if entrance is None else entrance.take(frame)
-        check_content(f"{self.name}, {topic.name}", topic, frame, self.heals)
+        who, entrance = f"{self.name}, {topic.name}", self.entrances.get(topic.name)
+        if topic is DESIRED:  # behind the entrance NaN is a joint whose turn it is not
+            check_content(who, topic, frame)
+        if entrance is not None:
+            frame = entrance.take(frame)
+        if topic is not DESIRED:
+            check_content(who, topic, frame, self.heals)
         return frame
+
+    def report(self) -> dict[str, object]:
+        """What a watcher should know of its state now, by name; told on /diagnostics."""
+        return {}
 
     def configure(self, changes: Values) -> None:
         """Change live parameters; what was remembered stays.

@@ -19,6 +19,12 @@ PARAMETERS = (
         minimum=0.0,
         live=False,
     ),
+    Parameter(
+        "circumstance",
+        "the variant is no controller, but what controllers meet: fpt compare lays them over it",
+        False,
+        live=False,
+    ),
     Parameter("cycles", "length of the run; 0: not known", 0, minimum=0, live=False),
     Parameter("directory", "where to record; must not exist", "", live=False),
     Parameter(

@@ -15,10 +15,12 @@ from fpt_ros.errors import BadInput
 from fpt_ros.experiments import description, parameter_file
 from fpt_ros.experiments.checks import check_fit
 from fpt_ros.experiments.derived import (
+    asks_for_weights,
     derive_names,
     filter_noise,
     heal_losses,
     share_synchronised,
+    weights_of,
 )
 from fpt_ros.experiments.locate import config_directory
 from fpt_ros.experiments.parameter_file import ParameterFile
@@ -146,6 +148,7 @@ def load(
     share_synchronised(file)
     filter_noise(file)
     heal_losses(file)
+    weighs = asks_for_weights(file)
     in_loop = in_the_loop(file.nodes[ParameterTuner.name])
     for node, parameter, value in changes:
         if parameter == "await_tuning" and value != in_loop:
@@ -158,7 +161,9 @@ def load(
     _check_shared(path, file, layers)
     nodes = {node: resolved(node, file, layers, explicit) for node in SECTIONS}
     experiment = Experiment(path.stem, variant, nodes, source)
-    experiment.loop()
+    loop = experiment.loop()
+    if weighs:
+        experiment = experiment.with_values(FptDeformer.name, weights=weights_of(loop))
     return experiment
 
 

@@ -9,6 +9,7 @@ from std_srvs.srv import Trigger
 
 from fpt_ros.cycle.fpt_deformer import FptDeformer
 from fpt_ros.cycle.limits import COMMAND_TIMEOUT, STOPPED
+from fpt_ros.errors import Diverged
 from fpt_ros.messages.frames import SECOND, Command, Frame
 from fpt_ros.nodes.process import report_progress, run_process
 from fpt_ros.nodes.robot import EFFORT_COMMAND
@@ -48,7 +49,14 @@ class DeformerNode(StageNode):
             self._efforts.publish(Float64MultiArray(data=list(frame.effort)))
 
     def _step(self, frames: list[Frame | None]) -> None:
-        super()._step(frames)
+        try:
+            super()._step(frames)
+        except Diverged as error:
+            if not self._robot:
+                raise
+            self.ignore(f"this cycle, the safe effort is commanded: {error}")  # a robot goes on
+            self.stage.forget()
+            self._command_safe_effort()
         if self.level != DiagnosticStatus.OK:
             self.level = DiagnosticStatus.OK
             self.get_logger().warning("measured again: the controller takes over")

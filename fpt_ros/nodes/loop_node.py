@@ -6,6 +6,7 @@ from time import monotonic
 from typing import Any
 
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus, KeyValue
+from rclpy.callback_groups import CallbackGroup
 from rclpy.node import Node
 from rclpy.qos import QoSProfile
 from rclpy.subscription import Subscription
@@ -27,6 +28,27 @@ def message_class(ros_type: str) -> Any:
     return getattr(importlib.import_module(f"{package}.{kind}"), name)
 
 
+class LoopGroup(CallbackGroup):
+    """Subscriptions that executors leave alone: the spinner takes their messages, with senders.
+
+    Attributes:
+        is_open: whether an executor serves them after all.
+    """
+
+    is_open = False
+
+    def can_execute(self, entity: Any) -> bool:
+        """Asked by executors."""
+        return self.is_open
+
+    def beginning_execution(self, entity: Any) -> bool:
+        """Asked by executors."""
+        return self.is_open
+
+    def ending_execution(self, entity: Any) -> None:
+        """Told by executors."""
+
+
 class LoopNode(Node):
     """A node whose loop messages are handled outside the executor.
 
@@ -42,6 +64,7 @@ class LoopNode(Node):
     def __init__(self, name: str) -> None:
         super().__init__(name)
         self.loop_subscriptions: list[Subscription] = []
+        self.loop_group = LoopGroup()
         self.finished = self.newest_counts = False
         self.deadline: float | None = None
         self.cycles_done = 0

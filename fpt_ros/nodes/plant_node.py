@@ -27,6 +27,9 @@ WINDOW = DEPTH * 3 // 4
 REMEMBERED = 1024
 """Cycles whose command may still come and be timed."""
 
+AGAIN = 0.5
+"""Seconds without a command after which, in lockstep, the measurement is published once more."""
+
 LAST_REPORT = Duration(seconds=2)
 """How long the last report waits for those who hear it, the recorder among them."""
 
@@ -48,6 +51,7 @@ class PlantNode(ParameterisedNode):
         self._held_back = False
         self._sent_at: deque[float] = deque(maxlen=REMEMBERED)
         self._timed = -1
+        self._sent_again = 0.0
         self._next_tick = 0.0
         self._misses = 0
         self._latencies: list[float] = []
@@ -170,6 +174,10 @@ class PlantNode(ParameterisedNode):
         """Progress; and a plant that comes second does not start."""
         super().housekeeping()
         report_progress(self._cycle)
+        waits = not (self._realtime or self._held_back or self.finished or not self._sent_at)
+        if waits and monotonic() - max(self._sent_at[-1], self._sent_again) > AGAIN:
+            self._sent_again = monotonic()
+            self.send_again()  # a message of this cycle may have been lost
         if self._cycle == 0 and self.count_publishers(JOINT_STATES.name) > 1:
             raise RunFailed(
                 f"another node publishes {self.resolve_topic_name(JOINT_STATES.name)} in this ROS "

@@ -4,7 +4,7 @@ from rclpy.qos import DurabilityPolicy, HistoryPolicy, QoSProfile, ReliabilityPo
 
 from fpt_ros.messages.topics import DEPTH
 
-HEARD = 1024
+HEARD = 4096
 """Messages that may wait for a node: who floods a topic must not push those of the loop out."""
 
 LATEST = 16

@@ -15,6 +15,7 @@ from array import array
 from collections.abc import Callable
 from datetime import datetime
 from functools import reduce
+from itertools import pairwise
 from pathlib import Path
 from time import time_ns
 
@@ -150,6 +151,8 @@ class Recorder(LoopNode):
                     stamp = arrivals.stamp(stamp, time_ns())
                 if self._is_unexpected(index, stamp):
                     decode(data)
+                if stamp < 0:
+                    raise MalformedMessage
             except (struct.error, MalformedMessage):
                 self.ignore(f"{name}: {len(data)} bytes that are not a {kind}")
                 return False
@@ -270,6 +273,19 @@ class Recorder(LoopNode):
         if not reason and self._lockstep and len(set(self._counts)) > 1:
             reason = "the recorder was stopped in the middle of a cycle"
         self._writer.close(reason)
+        if reason and self._saw_the_end():
+            raise RunFailed(
+                f"the recording lacks {self._cycles - len(self._stamps)} of {self._cycles} cycles: "
+                "the recorder was too slow, or stood still; the run was complete"
+            )
+
+    def _saw_the_end(self) -> bool:
+        """In real time: whether the last cycle has come, whatever is missing before it."""
+        stamps = self._stamps
+        if self._lockstep or not 2 <= len(stamps) < self._cycles:
+            return False
+        shortest = min(b - a for a, b in pairwise(stamps))
+        return stamps[-1] - stamps[0] >= (self._cycles - 1) * shortest > 0
 
 
 def _reason() -> str:

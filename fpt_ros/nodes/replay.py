@@ -18,14 +18,14 @@ from fpt_ros.cycle.plant_simulator import PlantSimulator
 from fpt_ros.errors import BadInput, Interrupted, RunFailed
 from fpt_ros.messages.cdr import Codec, MalformedMessage
 from fpt_ros.messages.frames import SECOND, Frame
-from fpt_ros.messages.topics import DEPTH, LOOP_TOPICS, Topic
+from fpt_ros.messages.topics import LOOP_TOPICS, Topic
 from fpt_ros.nodes.loop_node import LoopNode, message_class
 from fpt_ros.nodes.process import Stop, run_nodes
-from fpt_ros.nodes.qos import loop_qos
+from fpt_ros.nodes.qos import HEARD, loop_qos
 from fpt_ros.nodes.recorded_until import BEGUN, RECORDED_UNTIL, TIME, encode_time
 from fpt_ros.replay.compared import Comparison
 from fpt_ros.replay.recorded import Cycle
-from fpt_ros.replay.replayed import Out, Outcome, Progress, Replay, outcome
+from fpt_ros.replay.replayed import Out, Outcome, Progress, Replay
 
 NAME = "replay"
 
@@ -72,7 +72,7 @@ def run_live(
     run_nodes([make], stop, [NAME, "--ros-args", "-r", f"__ns:={namespace or '/'}"])
     if stop.signal:
         raise Interrupted("interrupted")
-    return outcome(nodes[0].comparison, *replay.recorded.missing)
+    return Outcome.of(nodes[0].comparison, *replay.recorded.missing)
 
 
 class Wait(NamedTuple):
@@ -112,8 +112,10 @@ class _ReplayNode(LoopNode):
             topic.name: self.create_publisher(message_class(topic.type), topic.name, loop_qos())
             for topic in inputs
         }
-        self._until = self.create_publisher(message_class(TIME), RECORDED_UNTIL, loop_qos(1))
-        self.subscribe_raw(stage.output.name, stage.output.type, DEPTH, self._on_answer)
+        self._until = None
+        if isinstance(stage, PlantSimulator):  # it may wait for a recorder
+            self._until = self.create_publisher(message_class(TIME), RECORDED_UNTIL, loop_qos(1))
+        self.subscribe_raw(stage.output.name, stage.output.type, loop_qos(HEARD), self._on_answer)
         self._set = self.create_client(SetParameters, f"{replay.node}/set_parameters")
         self._changes = deque(sorted(replay.changes, key=lambda change: change.stamp))
         self._expected: dict[int, Cycle] = {}
@@ -124,7 +126,7 @@ class _ReplayNode(LoopNode):
     def _steps(self) -> Iterator[Wait]:
         """All that is to be done, and waited for."""
         yield Wait(self._matched, f"there is no node {self._node} that listens: start it first")
-        self._until.publish(encode_time(BEGUN))  # a plant may wait for a recorder
+        self._acknowledge(BEGUN)
         origin, first = monotonic(), -1
         for cycle in self._recorded.cycles():
             first = cycle.stamp if first < 0 else first
@@ -149,7 +151,7 @@ class _ReplayNode(LoopNode):
             if not self._before:
                 yield from self._change(cycle.stamp)
             self._publish(cycle, self._behind)
-            self._until.publish(encode_time(cycle.stamp))
+            self._acknowledge(cycle.stamp)
             self._progress(cycle.number + 1)
         last = monotonic()
         yield Wait(lambda: not self._expected or monotonic() > last + LAST_ANSWERS)
@@ -160,6 +162,10 @@ class _ReplayNode(LoopNode):
         for topic in topics:
             if topic.name in cycle.messages:
                 self._inputs[topic.name].publish(cycle.messages[topic.name])
+
+    def _acknowledge(self, stamp: int) -> None:
+        if self._until is not None:
+            self._until.publish(encode_time(stamp))
 
     def _change(self, stamp: int) -> Iterator[Wait]:
         """Set what changed in this cycle; the node puts it into force when it acts next."""
@@ -190,15 +196,18 @@ class _ReplayNode(LoopNode):
                 return False
         return self.loop_subscriptions[0].get_publisher_count() > 0
 
-    def _on_answer(self, data: bytes) -> None:
+    def _on_answer(self, data: bytes) -> bool:
         try:
             frame = self._decode(data)
-        except MalformedMessage:
-            return
+        except MalformedMessage as error:
+            self.ignore(str(error))
+            return False
         cycle = self._expected.pop(frame.stamp, None)
-        if cycle is not None:
-            self._compare(cycle, frame)
-            self._go_on()
+        if cycle is None:
+            return False
+        self._compare(cycle, frame)
+        self._go_on()
+        return True
 
     def _compare(self, cycle: Cycle, frame: Frame | None) -> None:
         was = cycle.messages[self._output.name]

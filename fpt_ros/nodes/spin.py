@@ -39,7 +39,6 @@ class _LoopWaitSet:
             for sub in node.loop_subscriptions
         ]
         self._polls = len(nodes) > 1
-        self._at_once = HEARD if any(node.newest_counts for node in nodes) else 1
         self.patience = 0.0 if self._polls else GRACE
         self._filled = False
         self._set = rclpy_implementation.WaitSet(len(self._entries), 0, 0, 0, 0, 0, context.handle)
@@ -64,7 +63,7 @@ class _LoopWaitSet:
         self._filled = len(ready) == len(self._entries)  # the others are taken out by the wait
         for pointer, _, take, callback in self._entries:
             if pointer in ready:
-                for _ in range(self._at_once):
+                for _ in range(HEARD):
                     taken = take()
                     if taken is None:
                         break
@@ -75,7 +74,7 @@ class _LoopWaitSet:
         """Hand over what is there already."""
         came = False
         for _, _, take, callback in self._entries:
-            for _ in range(self._at_once):
+            for _ in range(HEARD):
                 taken = take()
                 if taken is None:
                     break
@@ -126,7 +125,7 @@ def spin(nodes: Sequence[LoopNode], stopped: Callable[[], bool], context: Contex
     served = list(zip(cycle(executors), nodes, strict=False))
     for executor, node in served:
         executor.add_node(node)
-    hot = wait_set or _PlainExecutor(executors[0])
+    hot = wait_set or _PlainExecutor(executors[0], nodes)
     services = _Services(served)
     for node in nodes:
         node.begin()
@@ -161,8 +160,10 @@ class _PlainExecutor:
 
     patience = 0.0
 
-    def __init__(self, executor: SingleThreadedExecutor) -> None:
+    def __init__(self, executor: SingleThreadedExecutor, nodes: Sequence[LoopNode]) -> None:
         self._executor = executor
+        for node in nodes:
+            node.loop_group.is_open = True
 
     def wait_and_dispatch(self, timeout: float) -> bool:
         """As of the wait set; what it does not know is when the loop is quiet."""

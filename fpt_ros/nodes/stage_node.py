@@ -33,6 +33,7 @@ class ParameterisedNode(LoopNode):
         self._changes = self.create_publisher(ParameterEvent, CHANGES, 10)
         self._publish = self.advertise(kind.output) if self.publishes else None
         self._encode = Codec(kind.output).encode
+        self._sent = b""
         watch(self, self._accept)
 
     @property
@@ -67,8 +68,14 @@ class ParameterisedNode(LoopNode):
     def send(self, frame: Frame) -> None:
         """Publish the stage's output."""
         assert self._publish is not None
-        self._publish(self._encode(frame))
+        self._sent = self._encode(frame)
+        self._publish(self._sent)
         self.cycles_done += 1
+
+    def send_again(self) -> None:
+        """Publish the last output once more: who has it ignores it, who waits for it goes on."""
+        if self._publish is not None and self._sent:
+            self._publish(self._sent)
 
 
 class StageNode(ParameterisedNode):
@@ -80,7 +87,7 @@ class StageNode(ParameterisedNode):
 
     def __init__(self, kind: type[Stage]) -> None:
         super().__init__(kind)
-        inputs = self.stage.inputs
+        inputs = self._inputs = self.stage.inputs
         realtime = bool(self.stage.values.get("realtime", False))
         cycle_time = round(float(self.stage.values.get("cycle_time", 0.0)) * SECOND)
         self._matcher = Matcher(inputs, cycle_time, realtime)
@@ -100,6 +107,11 @@ class StageNode(ParameterisedNode):
         """A tuner without a method has no inputs, and is not in the loop."""
         return bool(self.stage.inputs)
 
+    def health(self) -> tuple[str, dict[str, object]]:
+        """What the stage reports."""
+        summary, values = super().health()
+        return summary, {**values, **self.stage.report()}
+
     def _receiver(self, index: int, topic: Topic) -> Callable[[bytes], bool]:
         take, decode = self._matcher.take, Codec(topic).decode
         arrivals = Arrivals() if self._robot and topic is JOINT_STATES else None
@@ -118,6 +130,8 @@ class StageNode(ParameterisedNode):
                 return True
             if frames is not None:
                 self._step(frames)
+            elif frame.stamp == self._matcher.acted and self._inputs[index].lag == 0:
+                self.send_again()
             return frame.stamp == 0
 
         return receive

@@ -39,10 +39,10 @@ class Difference:
 
 
 class Comparison:
-    """Compares messages one by one, in the order of events.
+    """Compares messages one by one, those of a cycle in the order of events.
 
     Attributes:
-        first: difference; None: all are equal so far.
+        first: difference, of the earliest cycle; None: all are equal so far.
         compared, differing: messages.
         cycles: in which something was compared.
     """
@@ -69,7 +69,7 @@ class Comparison:
         if found is None:
             return True
         self.differing += 1
-        if self.first is None:
+        if self.first is None or cycle < self.first.cycle:
             self.first = Difference(f"{self._prefix}/{topic.name}", found[0], cycle, *found[1:])
         return False
 

@@ -1,13 +1,14 @@
 """One node of a recorded run again: its stage, in process, on the inputs that it had.
 
 In lockstep the stamps say what a node has seen. In real time the recording tells the rest: a stage
-acted in the cycles of which it has an answer; whether the command of the cycle before had come in
-time, and which command acted on the plant, follows from what was answered.
+acted in the cycles of which it has an answer; whether a message that it does not wait for had come
+in time, and which command acted on the plant, follows from what was answered.
 """
 
 from collections.abc import Iterator, Sequence
 from typing import Any, NamedTuple, Protocol
 
+from fpt_ros.cycle.fpt_deformer import FptDeformer
 from fpt_ros.cycle.matcher import Matcher
 from fpt_ros.cycle.plant_simulator import PlantSimulator
 from fpt_ros.cycle.stage import Stage
@@ -120,7 +121,7 @@ class _Answering:
             frames = self._matcher.take(at, frame) or frames
         if frames is None:
             if recorded is not None:
-                raise Lost(f"what {self._stage.name} needs in cycle {cycle.number} is not there")
+                return self._unasked(cycle, recorded)
             self._acted = self._realtime
             return None
         if not self._acted:
@@ -128,10 +129,18 @@ class _Answering:
         self._due(cycle.stamp)
         return self._step(frames, recorded)
 
+    def _unasked(self, cycle: Cycle, recorded: bytes) -> Frame:
+        """In real time: the deformer commands the safe effort where nothing is measured."""
+        if self._realtime and isinstance(self._stage, FptDeformer):
+            safe = self._stage.safe_command(cycle.stamp)
+            if first_field(self._output, self._codec.decode(recorded), safe) is None:
+                return safe
+        raise Lost(f"what {self._stage.name} needs in cycle {cycle.number} is not there")
+
     def _step(self, frames: list[Frame | None], recorded: bytes | None) -> Frame:
-        """One step; in real time the frames of the cycle before may have come too late."""
+        """One step; in real time what is not waited for may have come too late."""
         late = [
-            None if each.lag else frame
+            None if each.lag or each.optional else frame
             for each, frame in zip(self._stage.inputs, frames, strict=True)
         ]
         if recorded is None or late == frames or not self._realtime:
@@ -161,6 +170,8 @@ class _Plant:
     def __call__(self, cycle: Cycle) -> Frame | None:
         if self._before is None:
             self._origin = cycle.stamp
+        elif (cycle.stamp - self._origin) % self._plant.cycle_time:
+            return None  # of a node by itself, between two cycles
         else:
             if cycle.number != self._before.number + 1:
                 raise Lost(f"cycle {self._before.number + 1} is not in the recording")
@@ -195,4 +206,4 @@ def with_settings(recorded: Recorded, node: str, settings: Values) -> dict[str, 
     """The recorded parameters of a node with some of them changed."""
     base = ParameterFile(nodes={node: dict(recorded.parameters[node])})
     file = base.overlay(ParameterFile(nodes={node: dict(settings)}))
-    return resolved(node, file, base, {(node, name) for name in settings})
+    return resolved(node, file, [base], {(node, name) for name in settings})

@@ -10,7 +10,9 @@ from typing import NamedTuple
 from fpt_ros.bags import contents
 from fpt_ros.bags.bag import Bag
 from fpt_ros.bags.loop_series import loop_topic
+from fpt_ros.cycle.denoiser import Denoiser
 from fpt_ros.cycle.plant_simulator import PlantSimulator
+from fpt_ros.cycle.stage import ROBOT
 from fpt_ros.cycle.stages import STAGES
 from fpt_ros.errors import BadInput
 from fpt_ros.messages.frames import SECOND
@@ -94,10 +96,12 @@ class Recorded:
     @property
     def nodes(self) -> list[str]:
         """The nodes of the loop whose messages are recorded, in the order of events."""
+        robot = self.parameters.get(Denoiser.name, {}).get(ROBOT.name) is True
         return [
             name
             for name, stage in STAGES.items()
             if name in self.parameters and stage.output.name in self.counts
+            if not (robot and stage is PlantSimulator)
         ]
 
     def cycles(self) -> Iterator[Cycle]:

@@ -2,7 +2,7 @@
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from typing import Protocol
+from typing import Protocol, Self
 
 from fpt_ros.cycle.stage import Stage
 from fpt_ros.cycle.stages import STAGES
@@ -47,17 +47,11 @@ class Outcome:
         """Nothing that was compared differs."""
         return self.first is None
 
-
-def outcome(comparison: Comparison, *notes: str) -> Outcome:
-    """Of a comparison that is done; empty notes are left out.
-
-    Raises:
-        BadInput: nothing was compared.
-    """
-    told = tuple(note for note in notes if note)
-    if not comparison.cycles:
-        raise BadInput(f"there is nothing to compare{''.join(f': {note}' for note in told)}")
-    return Outcome(comparison.cycles, comparison.differing, comparison.first, told)
+    @classmethod
+    def of(cls, comparison: Comparison, *notes: str) -> Self:
+        """Of a comparison that is done; empty notes are left out."""
+        told = tuple(note for note in notes if note)
+        return cls(comparison.cycles, comparison.differing, comparison.first, told)
 
 
 class Replay:
@@ -99,9 +93,6 @@ class Replay:
         Args:
             progress: is told the number of each.
             out: takes the run with the node's new answers in the place of the recorded ones.
-
-        Raises:
-            BadInput: nothing of the recording can be replayed.
         """
         recorded, topic = self.recorded, self.stage.output
         comparison, end = Comparison(recorded.prefix), ""
@@ -113,7 +104,7 @@ class Replay:
             progress(cycle.number + 1)
             if out is not None and not end:
                 out.add(cycle, topic, frame)
-        return outcome(comparison, *recorded.missing, end)
+        return Outcome.of(comparison, *recorded.missing, end)
 
 
 def _without(values: Mapping[str, Value], settings: Values) -> dict[str, Value]:

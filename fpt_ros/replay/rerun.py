@@ -18,7 +18,7 @@ from fpt_ros.messages.topics import LOOP_TOPICS, Topic
 from fpt_ros.parameters import Value
 from fpt_ros.replay.compared import Comparison
 from fpt_ros.replay.recorded import Cycle, Recorded
-from fpt_ros.replay.replayed import Outcome, Progress, Replay, outcome
+from fpt_ros.replay.replayed import Outcome, Progress, Replay
 from fpt_ros.runs.chunks import Chunk, frames
 
 
@@ -30,7 +30,7 @@ def rerun(recorded: Recorded, progress: Progress = lambda done: None) -> dict[st
         parameters of the whole loop, each node that it holds.
 
     Raises:
-        BadInput: its parameters are not those of a run, or it holds nothing to compare.
+        BadInput: its parameters are not those of a run, or it does not begin with one.
     """
     if recorded.realtime or not STAGES.keys() <= recorded.parameters.keys():
         return {node: Replay(recorded, node).run(progress) for node in recorded.nodes}
@@ -49,7 +49,7 @@ def _loop(recorded: Recorded, progress: Progress) -> Outcome:
     except Diverged as error:
         end = f"the run now {error}"
     against.finish()
-    return outcome(against.comparison, *recorded.missing, end)
+    return Outcome.of(against.comparison, *recorded.missing, end)
 
 
 def _changes(recorded: Recorded) -> dict[int, dict[str, dict[str, Value]]]:

@@ -12,9 +12,9 @@ from fpt_ros.analysis.overall import error_of_all
 from fpt_ros.analysis.whole_files import write_whole
 from fpt_ros.errors import BadInput
 from fpt_ros.experiments.experiment import BASE, Experiment, load
+from fpt_ros.experiments.response_map import jacobian, nominal_points
 from fpt_ros.gain.contraction import bounds
 from fpt_ros.gain.limits import Gain
-from fpt_ros.gain.motion import jacobian, nominal_points
 from fpt_ros.robots.experiment_files import HEADER, Numbers, experiment_files
 from fpt_ros.robots.motion import motion
 from fpt_ros.robots.survey import survey

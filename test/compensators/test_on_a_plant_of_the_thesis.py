@@ -136,7 +136,7 @@ CONTROLLERS = {
 WITH_INERTIA = {"state_observer", "sliding_mode", "super_twisting", "model_free", "time_delay"}
 
 
-def simulate(control, relax):
+def simulate(control, relax, limit=np.inf):
     """Positions of all cycles, and efforts."""
     qN, vN, aN = nominal(np.arange(CYCLES) * DT)
     q, v, integral, before = np.zeros(3), np.zeros(3), np.zeros(3), None
@@ -152,7 +152,7 @@ def simulate(control, relax):
         model = regressor(cos, sin, v[0], v[0] + s[0], desired) @ HALF
         now = {"q": q, "v": v, "response": response, "desired": desired, "s": s, "model": model}
         now["explained"] = explained
-        effort = control(now, before)
+        effort = np.clip(control(now, before), -limit, limit)
         before = {**now, "effort": effort}
         positions.append(q)
         efforts.append(effort)
@@ -201,3 +201,15 @@ def test_a_compensator_in_the_loop(kind):
 def test_feedback_alone(relax):
     own = f"trajectory_generator.error_relaxation={relax.__name__}"
     agree(ours(own), simulate(lambda now, before: now["model"], relax))
+
+
+@pytest.mark.parametrize("kind", ["time_delay", "state_observer"])
+def test_what_was_limited_is_known(kind):
+    """What acted is what the next cycle starts from: nothing winds up."""
+    given, controller = CONTROLLERS[kind]
+    own = [f"fpt_deformer.compensator.{each}" for each in (f"kind={kind}", *given)]
+    own += [f"fpt_deformer.compensator.inertia={MASS.tolist()}"]
+    own += ["fpt_deformer.limit.effort=[150.0, 150.0, 150.0]"]
+    theirs = simulate(controller(), pd, 150.0)
+    assert (np.abs(theirs[1]) == 150.0).any()
+    agree(ours(*own), theirs)

@@ -11,7 +11,7 @@ import pytest
 from fpt_ros.cycle.run import Run
 from fpt_ros.engine.engine import Engine
 from fpt_ros.experiments import experiment
-from fpt_ros.plants.mujoco.description import ARMS
+from fpt_ros.plants.mujoco.description_file import ARMS
 
 mujoco = pytest.importorskip("mujoco")
 

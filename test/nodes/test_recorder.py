@@ -2,6 +2,7 @@
 
 import json
 import os
+import random
 import shutil
 import signal
 import subprocess
@@ -9,31 +10,42 @@ import sys
 from pathlib import Path
 
 import pytest
-from command import fpt, fpt_json, start_fpt
+import samples
+from command import forked_fpt as fpt
+from command import forked_fpt_json as fpt_json
+from command import start_fpt
 from test_endings import ended, node_of, under_way
 from watcher import watcher
 
 from fpt_ros.bags.reader import info, read_run
 from fpt_ros.bags.recover import recover
 from fpt_ros.experiments.experiment import load
+from fpt_ros.replay.recorded import Recorded
+from fpt_ros.replay.rerun import rerun
 
 BIN = Path(sys.executable).parent
 
 
-def test_killed_recorder_loses_no_acknowledged_cycle(tmp_path):
+@pytest.mark.parametrize("moment", samples.sample(range(20), 2))
+def test_killed_recorder_loses_no_acknowledged_cycle(tmp_path, moment):
+    """At random moments, some before the first chunk is full."""
+    at = random.Random(moment).uniform(0.02, 1.0)
     process, _ = under_way(tmp_path)
-    with watcher() as graph:
-        until = graph.wait_for_stamp(0.5)
-    node_of(process, "recorder").kill()
+    with watcher() as graph, graph.acknowledgements() as acknowledged:
+        graph.wait_for_stamp(0.2 + at)
+        node_of(process, "recorder").kill()
     ended(process)
-    done = recover(tmp_path / "bag", tmp_path / "recovered")
-    run = read_run(done.directory)
+    run = read_run(recover(tmp_path / "bag", tmp_path / "recovered").directory)
     counts = {name: len(series.stamps) for name, series in run.topics.items()}
     assert max(counts.values()) - min(counts.values()) <= 1
     # the plant is at most as far ahead of what was acknowledged as publishers keep
-    assert min(counts.values()) >= 500 - 64, until
+    assert min(counts.values()) >= round(1000 * (0.2 + at)) - 64
+    assert acknowledged
+    assert min(counts.values()) > round(1000 * max(acknowledged))
     for series in run.topics.values():
         assert series.stamps.tolist() == [k * 1_000_000 for k in range(len(series.stamps))]
+    again = Recorded(tmp_path / "recovered")
+    assert all(found.equal for found in rerun(again).values())
 
 
 @pytest.mark.parametrize("how", ["removed", "full"])

@@ -63,6 +63,7 @@ def empty(frame: Frame, tools: list[Tool]) -> figure:
         tools=tools,
         outline_line_color=None,
     )
+    plot.toolbar.active_drag = next(tool for tool in tools if isinstance(tool, BoxZoomTool))
     for axis in plot.axis:
         axis.axis_label_text_font_style = "normal"
         axis.axis_line_color = axis.major_tick_line_color = FRAME

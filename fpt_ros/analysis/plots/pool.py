@@ -13,7 +13,13 @@ from fpt_ros.runs.run import Array
 BUDGET = 15_000_000
 """Bytes of all numbers; the page writes them in base64, which makes four of three."""
 
+TIME, NUMBER = 8, 4
+"""Bytes of a time and of a number, which is single: seven digits are enough to look at."""
+
 LARGEST = float(np.finfo(np.float32).max)
+
+Place = tuple[ColumnDataSource, list[str]]
+"""Where a curve is: its source, and its columns there, one over ``time``, two of a path."""
 
 
 @dataclass
@@ -22,45 +28,57 @@ class _Group:
 
     time: Array
     signals: dict[bytes, Array] = field(default_factory=dict)
-    source: ColumnDataSource | None = None
 
-    @property
-    def size(self) -> int:
-        """Bytes: times are doubles, numbers are single."""
-        return len(self.time) * (8 + 4 * len(self.signals))
-
-    def name(self, signal: Array) -> str:
-        """Column of a signal."""
-        return f"y{list(self.signals).index(signal.tobytes())}"
+    def source(self, limit: int) -> ColumnDataSource:
+        """The signals as columns y0, y1, ... of about so many points, peaks among them."""
+        signals = list(self.signals.values())
+        kept = keep(*signals, limit=limit)
+        data = {f"y{at}": _single(signal[kept]) for at, signal in enumerate(signals)}
+        return ColumnDataSource({"time": self.time[kept], **data})
 
 
 class Pool:
-    """Takes curves; equal times and equal signals are kept once."""
+    """Takes curves over time, and paths with their time, and gives them places.
 
-    def __init__(self) -> None:
-        self._groups: dict[bytes, _Group] = {}
+    Equal times and equal signals are kept once while all fits into the budget. Otherwise each
+    curve has points of its own: so they are fewest for the peaks that they keep.
+    """
+
+    def __init__(self, budget: int = BUDGET) -> None:
+        self._budget = budget
+        self._curves: dict[tuple[bytes, ...], Curve] = {}
+        self._places: dict[tuple[bytes, ...], Place] = {}
 
     def add(self, curve: Curve) -> None:
-        """Take a curve over time, or a path with its time."""
-        group = self._groups.setdefault(_time(curve).tobytes(), _Group(_time(curve)))
-        for signal in _signals(curve):
-            group.signals[signal.tobytes()] = signal
+        """Take a curve."""
+        self._curves[_key(curve)] = curve
 
     def finish(self) -> None:
-        """Make the sources; curves lose points, but no peak, where all are too many."""
-        whole = sum(group.size for group in self._groups.values())
-        for group in self._groups.values():
-            signals = list(group.signals.values())
-            limit = int(len(group.time) * min(1.0, BUDGET / max(whole, 1)))
-            kept = keep(*signals, limit=max(limit, 1))
-            data = {f"y{at}": _single(signal[kept]) for at, signal in enumerate(signals)}
-            group.source = ColumnDataSource({"time": group.time[kept], **data})
+        """Give all curves their places."""
+        groups: dict[bytes, _Group] = {}
+        for (time, *keys), curve in self._curves.items():
+            group = groups.setdefault(time, _Group(_time(curve)))
+            group.signals.update(zip(keys, _signals(curve), strict=True))
+        size = sum(len(g.time) * (TIME + NUMBER * len(g.signals)) for g in groups.values())
+        if size <= self._budget:
+            sources = {time: group.source(len(group.time)) for time, group in groups.items()}
+            for time, *keys in self._curves:
+                columns = [f"y{list(groups[time].signals).index(key)}" for key in keys]
+                self._places[time, *keys] = sources[time], columns
+            return
+        points = self._budget // sum(TIME + NUMBER * (len(key) - 1) for key in self._curves)
+        for key, curve in self._curves.items():
+            group = _Group(_time(curve), dict(zip(key[1:], _signals(curve), strict=True)))
+            columns = [f"y{at}" for at in range(len(group.signals))]
+            self._places[key] = group.source(points), columns
 
-    def of(self, curve: Curve) -> tuple[ColumnDataSource, list[str]]:
-        """Source of a curve, and its columns: one over ``time``, two of a path."""
-        group = self._groups[_time(curve).tobytes()]
-        assert group.source is not None
-        return group.source, [group.name(signal) for signal in _signals(curve)]
+    def of(self, curve: Curve) -> Place:
+        """The place of a curve that was added."""
+        return self._places[_key(curve)]
+
+
+def _key(curve: Curve) -> tuple[bytes, ...]:
+    return _time(curve).tobytes(), *(signal.tobytes() for signal in _signals(curve))
 
 
 def _time(curve: Curve) -> Array:
@@ -72,6 +90,6 @@ def _signals(curve: Curve) -> tuple[Array, ...]:
 
 
 def _single(values: Array) -> NDArray[np.float32]:
-    """Seven digits are enough to look at; what is beyond them counts as missing."""
+    """What is too large for single precision counts as missing."""
     known = np.abs(values) < LARGEST
     return np.where(known, values, np.nan).astype(np.float32)

@@ -1,8 +1,12 @@
-// Runs whenever the window of time changes: each curve shows as many points as can be seen, the
-// smallest and the largest number of every stretch among them, and y axes follow what is shown.
+// Keeps a figure at the window of time that all have in common: each curve shows as many points as
+// can be seen, the smallest and the largest number of every stretch among them, and y axes follow
+// what is shown. A figure that is not on the screen waits until it is.
 //
-// range: the window. rows: of each y axis { y, follows, curves }, of each curve { full: all its
-// points, columns: one over time or two of a path, shown: what is drawn, line: its renderer }.
+// Runs for each figure when the page is ready, and whenever the window changes.
+//
+// common: the window. own: the figure's range of time. root: its plots. rows: of each y axis
+// { y, follows, curves }, of each curve { full: all its points, columns: one over time or two of a
+// path, shown: what is drawn, line: its renderer }.
 
 const POINTS = 3000;
 const ROOM = 0.06;
@@ -65,8 +69,8 @@ function show(curve) {
   const time = curve.full.data.time;
   const columns = curve.columns.map((name) => curve.full.data[name]);
   // one point beyond each end, so that the line goes on to the edge
-  const first = Math.max(from(time, range.start) - 1, 0);
-  const last = Math.min(from(time, range.end) + 1, time.length);
+  const first = Math.max(from(time, common.start) - 1, 0);
+  const last = Math.min(from(time, common.end) + 1, time.length);
   const at = thinned(first, last, columns);
   const of = (column) => Float64Array.from(at, (i) => column[i]);
   const y = of(columns[columns.length - 1]);
@@ -80,7 +84,9 @@ function show(curve) {
 }
 
 function refresh() {
-  const whole = range.start <= range.reset_start && range.end >= range.reset_end;
+  root.stale = false;
+  own.setv({ start: common.start, end: common.end });
+  const whole = common.start <= common.reset_start && common.end >= common.reset_end;
   for (const row of rows) {
     let low = Infinity, high = -Infinity;
     for (const curve of row.curves) {
@@ -99,13 +105,19 @@ function refresh() {
   }
 }
 
-// start and end change one after the other: once a frame is enough
-if (!range.waiting) {
-  range.waiting = new Map();
-  requestAnimationFrame(() => {
-    const all = range.waiting;
-    range.waiting = undefined;
-    for (const each of all.values()) each();
-  });
+function watch() {
+  const place = document.querySelector(`[data-root-id="${root.id}"]`).parentElement;
+  new IntersectionObserver((entries) => {
+    root.seen = entries[entries.length - 1].isIntersecting;
+    if (root.seen && root.stale) refresh();
+  }, { rootMargin: "25%" }).observe(place);
+  addEventListener("beforeprint", refresh);
 }
-range.waiting.set(rows, refresh);
+
+// start and end change one after the other: once a frame is enough
+if (!root.stale) requestAnimationFrame(() => { if (root.seen && root.stale) refresh(); });
+root.stale = true;
+if (root.seen === undefined) {
+  root.seen = false;
+  watch();
+}

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from fpt_ros.denoising.offline import Found, Info, Mask, Method, Record, Signal, library
+from fpt_ros.denoising.offline import Found, Info, Mask, Method, Record, Signal, doubts, library
 from fpt_ros.denoising.offline.gaussian_process import Process
 from fpt_ros.denoising.offline.noise_found import Beginning, find
 from fpt_ros.parameters import Values
@@ -75,8 +75,19 @@ def part(
         general = [*general, special[0]]
     last = [judge.mean("general", general, doubt * library.WIDE), *special]
     weight = judge.weights(last, doubt * library.SHARP)
+    favourite = last[int(np.argmax(weight))]
+    if favourite.name == library.TONES and not doubts.leaves_noise(y, present, judge, favourite):
+        last = [member for member in last if member.name != library.TONES]
+        weight = judge.weights(last, doubt * library.SHARP)
     inner = judge.weights(general, doubt * library.WIDE)
     estimate = weight @ np.array([member.estimate for member in last])
+    if len(y) < doubts.SHORT and doubts.hardly_told(y, present, judge, estimate):
+        weight, estimate = (
+            np.array([member.name == library.UNCHANGED for member in last]) * 1.0,
+            y,
+        )
+    impulses = present - judge.noise.inlier(y - estimate, present)
+    estimate = np.where(doubts.bursts(impulses), y, estimate)
     return Part(
         np.asarray(estimate + offset),
         beginning,

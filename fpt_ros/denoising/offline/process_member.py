@@ -22,6 +22,9 @@ CLEAR = 0.0
 IDLE, EVEN = 0.3, 6.0
 """Where white noise leaves so many degrees of freedom per sample to the signal, the record hardly
 changes; then coloured noise is taken if it is as good to within this BIC."""
+SLOW, ALONE = 0.75, 0.2
+"""A coefficient above the one, and white noise beside above the other share of it, is a signal that
+wanders, or jumps, in white noise."""
 LOUDEST = 0.15
 """Share of the variance that coloured noise may have: more is a signal, as far as can be told."""
 
@@ -80,6 +83,9 @@ def _coloured(samples: Samples, white: Process) -> Process | None:
     _, df, _ = white.smooth(samples)
     clear = -EVEN if df > IDLE * samples.count else CLEAR
     if found.bic > white.bic - clear:
+        return None
+    coefficient, sigma = math.exp(-1.0 / found.parts[-1, 2]), float(found.parts[-1, 1])
+    if coefficient > SLOW and ALONE * sigma < 1.0 < sigma:
         return None
     known = samples.relative < UNKNOWN
     return found if _total(found) ** 2 < LOUDEST * float(np.var(samples.y[known])) else None

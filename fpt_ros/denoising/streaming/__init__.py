@@ -36,6 +36,8 @@ class Filter:
         update: ``update(constants, state, dt, q, v, out_q, out_v, out_response)`` with the sample
             dt [s] after the last one.
         parameters: its own, beside ``order``.
+        deviation: ``deviation(constants, state, c)`` -> standard deviations of position, velocity
+            and response of coordinate c as they are now; None: the filter does not know.
     """
 
     prepare: Callable[[Values, int, float], tuple[float, ...]]
@@ -43,6 +45,7 @@ class Filter:
     start: Callable[[Vector, MutableVector, Vector, Vector], None]
     update: Update
     parameters: tuple[Parameter, ...] = ()
+    deviation: Callable[[Vector, Vector, int], tuple[float, float, float]] | None = None
 
 
 FILTERS: Kind[Filter] = Kind(Filter, "filters")

@@ -16,6 +16,7 @@ With one member this is a plain Kalman filter.
 """
 
 import math
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -77,12 +78,21 @@ def riccati(transition: NDArray[np.float64], noise: NDArray[np.float64]) -> NDAr
     raise BadInput("the Riccati equation of a Kalman filter has no solution in floating point")
 
 
-def steady_gains(states: int, density: float, sigma: float, dt: float) -> NDArray[np.float64]:
-    """Gains of the scaled states, by which the innovation corrects them.
+class Prediction(NamedTuple):
+    """A steady filter in its own unit of time, where all numbers are of order one.
 
-    The equation is solved in the filter's own unit of time, (sigma^2 dt / density)^(1/(2 states)),
-    where all its numbers are of order one.
+    ``covariance`` of the prediction, ``noise`` of a step and ``transition`` are of the states
+    q^(i) unit^i / i!, position measured with unit variance; ``h`` is dt / unit.
     """
+
+    covariance: NDArray[np.float64]
+    noise: NDArray[np.float64]
+    transition: NDArray[np.float64]
+    h: float
+
+
+def steady_prediction(states: int, density: float, sigma: float, dt: float) -> Prediction:
+    """The steady filter; its unit of time is (sigma^2 dt / density)^(1/(2 states))."""
     unit = (sigma * sigma * dt / density) ** (0.5 / states)
     h = dt / unit
     order = np.arange(states)
@@ -93,8 +103,13 @@ def steady_gains(states: int, density: float, sigma: float, dt: float) -> NDArra
     back = factorial * factorial[::-1]  # i! (states - 1 - i)!
     exponent = 2 * states - 1 - order[:, None] - order[None, :]
     noise = h**exponent / (exponent * back[:, None] * back[None, :]) * h
-    P = riccati(transition, noise)
-    gains: NDArray[np.float64] = P[:, 0] / (1.0 + P[0, 0]) * h**order
+    return Prediction(riccati(transition, noise), noise, transition, h)
+
+
+def steady_gains(states: int, density: float, sigma: float, dt: float) -> NDArray[np.float64]:
+    """Gains of the scaled states, by which the innovation corrects them."""
+    P, _, _, h = steady_prediction(states, density, sigma, dt)
+    gains: NDArray[np.float64] = P[:, 0] / (1.0 + P[0, 0]) * h ** np.arange(states)
     return gains
 
 

@@ -102,8 +102,8 @@ def _arbitrary(runs: Runs) -> Verdict:
         },
         f"Only if it is meant that nothing says which to take: of {len(errors)} random pairs of R "
         f"and Q, all of which Lyapunov's theorem allows, {better} are better than the printed "
-        f"ones; but over a factor of 100 of their eigenvalues the settled error differs by {spread:.3g} "
-        "only.",
+        "ones; but over a factor of 100 of their eigenvalues the settled error differs by "
+        f"{spread:.3g} only.",
     )
 
 

@@ -8,7 +8,7 @@ from test_files import URDF
 from fpt_ros.errors import BadInput
 from fpt_ros.parameters import resolve
 from fpt_ros.plants import MODELS
-from fpt_ros.plants.mujoco.description import ARMS, shipped
+from fpt_ros.plants.mujoco.description_file import ARMS, shipped
 from fpt_ros.plants.mujoco.linear import NUMBERS
 
 pytest.importorskip("mujoco")

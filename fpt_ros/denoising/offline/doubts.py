@@ -1,0 +1,70 @@
+"""Where ``auto`` does not believe its own best model: there the record stays as it is.
+
+A model that does not fit the signal explains the misfit by impulses, and so can win against the
+record as it is. But impulses come alone: of 208 records, among them all with impulses or with
+tails, none that was not harmed had three in a row, or a fifth of all samples around one place.
+
+Tones leave white noise, or they are not the signal: few of them explain a chirp, or a rough record,
+better than none, and take the rest for noise.
+
+In a short record noise that would be nearly half of the variance cannot be told from a signal as
+rough: whatever is taken away may be the signal.
+"""
+
+import numpy as np
+from scipy.ndimage import binary_dilation, gaussian_filter1d
+
+from fpt_ros.denoising.offline import Mask, Signal
+from fpt_ros.denoising.offline.library import Judge, Member
+from fpt_ros.denoising.offline.process_member import LOUDEST
+from fpt_ros.denoising.offline.spectral_floor import level
+
+IN_A_ROW = 2.6
+"""Sum of the probabilities of three impulses in a row that is a burst."""
+REACH = 8
+"""Samples around a burst, and standard deviation of the window of the density of impulses."""
+DENSE, THIN = 0.2, 0.1
+"""Density that is a burst, and down to which a burst goes."""
+WHITE = 0.85
+"""Least level of a residual, in units of its standard deviation, that is white."""
+SHORT = 128
+NOISY = 0.4
+"""Share of the variance above which the noise of a short record is doubted."""
+
+
+def bursts(impulse: Signal) -> Mask:
+    """True where impulses come in bursts, shape (n,).
+
+    Args:
+        impulse: probability that a sample is one, shape (n,).
+    """
+    found = np.zeros(len(impulse), dtype=bool)
+    found[1:-1] = impulse[:-2] + impulse[1:-1] + impulse[2:] > IN_A_ROW
+    if found.any():
+        found = binary_dilation(found, iterations=REACH)
+    density = gaussian_filter1d(impulse, REACH, mode="reflect")
+    if density.max() > DENSE:
+        found |= density > THIN
+    return found
+
+
+def _taken(y: Signal, present: Mask, judge: Judge, estimate: Signal) -> float:
+    """Share of the variance that is taken away, impulses not counted."""
+    residual = y - estimate
+    inlier = judge.noise.inlier(residual, present)
+    mean = float(np.sum(inlier * residual**2)) / max(float(np.sum(inlier)), 1.0)
+    return mean / float(np.var(y[present]))
+
+
+def leaves_noise(y: Signal, present: Mask, judge: Judge, member: Member) -> bool:
+    """Whether the residual is small or, without impulses and at one level, white."""
+    if _taken(y, present, judge, member.estimate) < LOUDEST:
+        return True
+    residual = y - member.estimate
+    noise = judge.noise.inlier(residual, present) * residual / judge.noise.sigma
+    return level(noise, present) > WHITE * float(np.std(noise[present]))
+
+
+def hardly_told(y: Signal, present: Mask, judge: Judge, estimate: Signal) -> bool:
+    """Whether what is taken away is too great a part of the record."""
+    return _taken(y, present, judge, estimate) > NOISY
