@@ -47,6 +47,12 @@ $(VENV)/.%: setup.py setup.cfg pyproject.toml package.xml $(LOCK) | $(UV) $(BIN)
 	@$(UV) pip install --quiet $(if $(filter setup,$*),--compile-bytecode) --python $(BIN)/python --constraint $(LOCK) --build-constraint $(LOCK) --editable '.[$(NEEDS_$*)]'
 	@touch $@
 
+# what Foxglove reads recordings with; without npm the tests of it are skipped
+READERS := test/bags/node_reader
+$(VENV)/.node: $(READERS)/package-lock.json | $(BIN)/python
+	@if command -v npm >/dev/null; then npm ci --silent --prefix $(READERS) || echo "npm: $(READERS) is not installed"; fi
+	@touch $@
+
 $(BIN)/python:
 	@test -n "$(PYTHON)" || { echo "fpt_ros needs Python 3.11 or 3.12: apt-get install python3"; exit 1; }
 	@$(PYTHON) -c 'import venv, ensurepip' 2>/dev/null || { echo "Python's venv is missing: apt-get install python3-venv"; exit 1; }
@@ -58,10 +64,10 @@ $(BIN)/uv: | $(BIN)/python
 demo: $(VENV)/.demo
 	@$(BIN)/fpt demo --out $(DEMO)
 
-test: $(VENV)/.test
+test: $(VENV)/.test $(VENV)/.node
 	@$(BIN)/python -m pytest -n 2 --dist worksteal
 
-test-all: $(VENV)/.test
+test-all: $(VENV)/.test $(VENV)/.node
 	@$(BIN)/python -m pytest -n 2 --dist worksteal --all
 
 REV ?= HEAD
@@ -69,7 +75,7 @@ same-bits: $(VENV)/.test
 	@$(BIN)/python test/same_bits $(REV) $(OPTIONS)
 
 bench: $(VENV)/.bench
-	@for each in engine long streaming sweep start graph realtime; do $(BIN)/python benchmarks/$$each.py || exit 1; done
+	@for each in engine robots long streaming sweep start graph realtime recorder recordings; do $(BIN)/python benchmarks/$$each.py || exit 1; done
 
 lint: $(VENV)/.lint
 	@$(BIN)/ruff check .

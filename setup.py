@@ -15,18 +15,21 @@ OFFLINE = ["scikit-fuzzy", "pyarrow", "matplotlib"]
 CLUSTER = ["dask", "distributed"]
 PEERS = ["scikit-image", "statsmodels"]
 ROBOTS = ["mujoco>=3.3"]
+ORACLE = ["pin>=3"]  # Pinocchio: what tests and benchmarks of arms compare with
 SWEEP = ["optuna>=5", "pyarrow", "matplotlib"]
 # Jazzy for machines without it: wheels of the real thing (x86-64 Linux, CPython 3.10 to 3.14)
 ROS = [
     "ros-jazzy-rclpy[fastrtps]",
     "ros-jazzy-std-msgs",
+    "ros-jazzy-std-srvs",
     "ros-jazzy-sensor-msgs",
     "ros-jazzy-trajectory-msgs",
     "ros-jazzy-diagnostic-msgs",
 ]
 EXTRAS = {
-    "analysis": FIGURES,  # fpt report, demo, gain --plot
+    "analysis": [*FIGURES, "bokeh>=3.9"],  # fpt report, demo, gain --plot
     "sweep": SWEEP,  # fpt sweep, tune
+    "compare": sorted({*FIGURES, *SWEEP}),  # fpt compare
     "export": ["pandas", "pyarrow"],  # fpt export, fpt_ros.load
     "denoise": OFFLINE,  # fpt denoise
     "thesis": sorted({*FIGURES, *OFFLINE}),  # fpt reproduce
@@ -40,12 +43,16 @@ EXTRAS = {
         "pytest-timeout",
         "hypothesis",
         "mcap-ros2-support",
+        "nbclient",
+        "ipykernel",
         "colcon-common-extensions",
         "psutil",
         "pandas",
+        "bokeh>=3.9",
+        "websockets",  # drives a browser
         "setuptools<80",
         "wheel",
-        *sorted({*FIGURES, *OFFLINE, *SWEEP, *CLUSTER, *PEERS, *ROBOTS}),
+        *sorted({*FIGURES, *OFFLINE, *SWEEP, *CLUSTER, *PEERS, *ROBOTS, *ORACLE}),
     ],
     "lint": ["ruff", "mypy", "pre-commit"],
     "docs": ["sphinx", "furo", "myst-parser"],
@@ -76,6 +83,8 @@ setup(
     package_data={
         "fpt_ros": ["py.typed"],
         "fpt_ros.analysis": ["*.html.j2", "*.css"],
+        "fpt_ros.compare": ["*.html.j2"],
+        "fpt_ros.analysis.plots": ["*.js"],
         "fpt_ros.thesis": ["*.html.j2"],
         "fpt_ros.nodes": ["*.xml"],
         "fpt_ros.plants.mujoco": ["arms/*.xml"],
@@ -85,6 +94,7 @@ setup(
         ("share/fpt_ros", ["package.xml"]),
         ("share/fpt_ros/config", glob("config/*.yaml")),
         ("share/fpt_ros/launch", glob("launch/*.launch.py")),
+        ("share/fpt_ros/layouts", glob("layouts/*.*")),
     ],
     install_requires=[
         "numpy",
@@ -106,14 +116,17 @@ setup(
             *(f"{node} = fpt_ros.nodes.{node}:main" for node in NODES),
         ],
         "fpt_ros.plants": [
+            "acrobot = fpt_ros.plants.double_pendulum:ACROBOT",
             "cart_beam_hamper = fpt_ros.plants.cart_beam_hamper:PLANT",
             "coupled_masses = fpt_ros.plants.coupled_masses:PLANT",
+            "double_pendulum = fpt_ros.plants.double_pendulum:DOUBLE_PENDULUM",
             "duffing = fpt_ros.plants.duffing:PLANT",
             "fitzhugh_nagumo = fpt_ros.plants.fitzhugh_nagumo:PLANT",
             "kapitza = fpt_ros.plants.kapitza:PLANT",
             "lorenz = fpt_ros.plants.lorenz:PLANT",
             "mimo_affine = fpt_ros.plants.mimo_affine:PLANT",
             "mujoco = fpt_ros.plants.mujoco.plant:PLANT",
+            "pendubot = fpt_ros.plants.double_pendulum:PENDUBOT",
             "siso_affine = fpt_ros.plants.siso_affine:PLANT",
             "spherical_pendulum = fpt_ros.plants.spherical_pendulum:PLANT",
             "swing = fpt_ros.plants.swing:PLANT",
@@ -122,17 +135,22 @@ setup(
             "van_der_pol_second_order = fpt_ros.plants.van_der_pol_second_order:PLANT",
         ],
         "fpt_ros.models": [
+            "acrobot = fpt_ros.plants.double_pendulum:ACROBOT_MODEL",
             "cart_beam_hamper = fpt_ros.plants.cart_beam_hamper:MODEL",
             "coupled_masses = fpt_ros.plants.coupled_masses:MODEL",
+            "double_pendulum = fpt_ros.plants.double_pendulum:MODEL",
             "duffing = fpt_ros.plants.duffing:MODEL",
             "fitzhugh_nagumo = fpt_ros.plants.fitzhugh_nagumo:MODEL",
             "kapitza = fpt_ros.plants.kapitza:LITERAL",
             "kapitza_listing = fpt_ros.plants.kapitza:LISTING",
             "kapitza_with_gravity = fpt_ros.plants.kapitza:WITH_GRAVITY",
             "lorenz = fpt_ros.plants.lorenz:MODEL",
+            "lorenz_incomplete = fpt_ros.plants.lorenz:INCOMPLETE",
             "mimo_affine = fpt_ros.plants.mimo_affine:MODEL",
             "mujoco = fpt_ros.plants.mujoco.model:MODEL",
             "mujoco_diagonal = fpt_ros.plants.mujoco.diagonal:MODEL",
+            "mujoco_linear = fpt_ros.plants.mujoco.linear:MODEL",
+            "pendubot = fpt_ros.plants.double_pendulum:PENDUBOT_MODEL",
             "siso_affine = fpt_ros.plants.siso_affine:MODEL",
             "spherical_affine = fpt_ros.plants.spherical_pendulum:AFFINE_MODEL",
             "spherical_fully_fuzzy = fpt_ros.plants.spherical_pendulum:FULLY_FUZZY",
@@ -144,11 +162,19 @@ setup(
         ],
         "fpt_ros.trajectories": [
             "blended_sines = fpt_ros.trajectories.blended_sines:BLENDED_SINES",
+            "chirp = fpt_ros.trajectories.chirp:CHIRP",
             "constant = fpt_ros.trajectories.constant:CONSTANT",
             "cosines = fpt_ros.trajectories.cosines:COSINES",
             "fitzhugh_nagumo = fpt_ros.trajectories.fitzhugh_nagumo:FITZHUGH_NAGUMO",
+            "duffing = fpt_ros.trajectories.duffing:DUFFING",
+            "lorenz = fpt_ros.trajectories.lorenz:LORENZ",
+            "inverse_kinematics = fpt_ros.trajectories.inverse_kinematics:INVERSE_KINEMATICS",
+            "minimum_jerk = fpt_ros.trajectories.minimum_jerk:MINIMUM_JERK",
+            "recorded = fpt_ros.trajectories.recorded:RECORDED",
             "sine = fpt_ros.trajectories.sine:SINE",
             "spline = fpt_ros.trajectories.spline:SPLINE",
+            "step = fpt_ros.trajectories.step:STEP",
+            "waypoints = fpt_ros.trajectories.waypoints:WAYPOINTS",
         ],
         "fpt_ros.relaxations": [
             "feedback_pd = fpt_ros.relaxations.feedback_pd:FEEDBACK_PD",
@@ -163,31 +189,64 @@ setup(
         "fpt_ros.compensators": [
             "disturbance_observer = fpt_ros.compensators.disturbance_observer:DISTURBANCE_OBSERVER",
             "incremental = fpt_ros.compensators.incremental:INCREMENTAL",
+            "l1 = fpt_ros.compensators.l1:L1",
+            "model_free = fpt_ros.compensators.model_free:MODEL_FREE",
+            "mrac = fpt_ros.compensators.mrac:MRAC",
             "momentum_observer = fpt_ros.compensators.momentum_observer:MOMENTUM_OBSERVER",
             "none = fpt_ros.compensators.none:NONE",
+            "sliding_mode = fpt_ros.compensators.sliding_mode:SLIDING_MODE",
+            "state_observer = fpt_ros.compensators.state_observer:STATE_OBSERVER",
+            "super_twisting = fpt_ros.compensators.super_twisting:SUPER_TWISTING",
             "time_delay = fpt_ros.compensators.time_delay:TIME_DELAY",
         ],
         "fpt_ros.disturbances": [
             "none = fpt_ros.disturbances:NONE",
             "bspline = fpt_ros.disturbances.bspline:BSPLINE",
+            "kicks = fpt_ros.disturbances.kicks:KICKS",
             "lugre = fpt_ros.disturbances.lugre:LUGRE",
             "sine_noise = fpt_ros.disturbances.sine_noise:SINE_NOISE",
+        ],
+        "fpt_ros.integrators": [
+            "dopri5 = fpt_ros.integrators.dopri5:DOPRI5",
+            "explicit_euler = fpt_ros.integrators.explicit_euler:EXPLICIT_EULER",
+            "rk4 = fpt_ros.integrators.rk4:RK4",
+            ("semi_implicit_euler = fpt_ros.integrators.semi_implicit_euler:SEMI_IMPLICIT_EULER"),
+        ],
+        "fpt_ros.sensor_disturbances": [
+            "biased = fpt_ros.disturbances.sensors.biased:BIASED",
+            "bursts = fpt_ros.disturbances.sensors.bursts:BURSTS",
+            "impulses = fpt_ros.disturbances.sensors.impulses:IMPULSES",
+            "lagging = fpt_ros.disturbances.sensors.lagging:LAGGING",
+            "lost = fpt_ros.disturbances.sensors.lost:LOST",
+            "quantised = fpt_ros.disturbances.sensors.quantised:QUANTISED",
+        ],
+        "fpt_ros.actuator_disturbances": [
+            "dead_zone = fpt_ros.disturbances.actuators.dead_zone:DEAD_ZONE",
+            "dropouts = fpt_ros.disturbances.actuators.dropouts:DROPOUTS",
+            "imprecise = fpt_ros.disturbances.actuators.imprecise:IMPRECISE",
+            "lag = fpt_ros.disturbances.actuators.lag:LAG",
+            "response = fpt_ros.disturbances.actuators.response:RESPONSE",
+            "saturation = fpt_ros.disturbances.actuators.saturation:SATURATION",
         ],
         "fpt_ros.transformations": [
             "none = fpt_ros.transformations.none:NONE",
             "atanh = fpt_ros.transformations.atanh:ATANH",
+            "rotation = fpt_ros.transformations.rotation:ROTATION",
             "rfpt = fpt_ros.transformations.rfpt:RFPT",
             "sgfpt = fpt_ros.transformations.sgfpt:SGFPT",
             "stretched = fpt_ros.transformations.stretched:STRETCHED",
         ],
         "fpt_ros.tuning": [
+            "damped = fpt_ros.tuning.pseudo_inverse:DAMPED",
             "fixed_point = fpt_ros.tuning.fixed_point:FIXED_POINT",
             "gain = fpt_ros.tuning.gain:CALCULATED",
             "gram_schmidt = fpt_ros.tuning.gram_schmidt:GRAM_SCHMIDT",
             "none = fpt_ros.tuning.none:NONE",
             "lyapunov = fpt_ros.tuning.lyapunov:LYAPUNOV",
+            "moore_penrose = fpt_ros.tuning.pseudo_inverse:MOORE_PENROSE",
             "projection = fpt_ros.tuning.projection:PROJECTION",
             "slotine_li = fpt_ros.tuning.slotine_li:SLOTINE_LI",
+            "truncated_svd = fpt_ros.tuning.truncated_svd:TRUNCATED_SVD",
             "weights = fpt_ros.tuning.weights:TUNED_WEIGHTS",
         ],
         "fpt_ros.filters": [

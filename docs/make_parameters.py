@@ -12,8 +12,8 @@ from typing import Any
 
 from fpt_ros.compensators import COMPENSATORS
 from fpt_ros.cycle.approximate_model import MODEL
+from fpt_ros.cycle.deformer_parameters import PARAMETERS as DEFORMER
 from fpt_ros.cycle.denoiser import METHOD, SYNCHRONISED
-from fpt_ros.cycle.fpt_deformer import PARAMETERS as DEFORMER
 from fpt_ros.cycle.parameter_tuner import PARAMETERS as TUNER
 from fpt_ros.cycle.parameter_tuner import TUNE_FROM
 from fpt_ros.cycle.plant_simulator import STRUCTURE

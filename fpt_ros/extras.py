@@ -9,8 +9,9 @@ from importlib.util import find_spec
 from fpt_ros.errors import BadInput
 
 MODULES = {
-    "analysis": ("matplotlib", "jinja2"),
+    "analysis": ("matplotlib", "jinja2", "bokeh"),
     "sweep": ("matplotlib", "pyarrow", "optuna"),
+    "compare": ("matplotlib", "jinja2", "optuna"),
     "export": ("pandas", "pyarrow"),
     "denoise": ("matplotlib", "pyarrow", "skfuzzy"),
     "thesis": ("matplotlib", "jinja2", "pyarrow", "skfuzzy"),

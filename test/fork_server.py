@@ -1,15 +1,30 @@
 """A process with the package imported that forks for every command: what is tested is the command.
 
-Importing takes a second or two of every ``fpt``; tests of messages need it once. A line of JSON
-in is a command, with the files that its output goes to; a line out is its exit status.
+Importing takes a second or two of every ``fpt``, most of it numba, scipy and matplotlib; here it is
+done once. A line of JSON in is a command, with the files that its output goes to; a line out is its
+exit status.
 """
 
+import gc
+import importlib
 import json
 import os
+import pkgutil
 import sys
 import traceback
 
+import fpt_ros
 from fpt_ros.cli.main import main
+from fpt_ros.engine import compiled
+
+
+def import_all():
+    """Import what commands import when they are called; nodes are processes of their own."""
+    for module in pkgutil.walk_packages(fpt_ros.__path__, "fpt_ros."):
+        if ".nodes" not in module.name:
+            importlib.import_module(module.name)
+    compiled.cache_directory()
+    gc.freeze()
 
 
 def perform(arguments, cwd, environment, stdout, stderr):
@@ -43,4 +58,5 @@ def serve():
 
 
 if __name__ == "__main__":
+    import_all()
     serve()

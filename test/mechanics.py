@@ -24,7 +24,7 @@ def regressor_of(model, q, v, w, a):
     """Y as a matrix."""
     columns = len(model.coefficient_names)
     out = [math.nan] * (model.rows * columns)
-    model.regressor(q, v, w, a, out)
+    model.regressor((), q, v, w, a, out)
     return np.array(out).reshape(model.rows, columns)
 
 

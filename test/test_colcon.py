@@ -12,6 +12,7 @@ COPIED = (
     "fpt_ros",
     "config",
     "launch",
+    "layouts",
     "resource",
     "setup.py",
     "setup.cfg",
@@ -44,6 +45,7 @@ def test_colcon_build(tmp_path):
         p.name for p in (ROOT / "config").iterdir()
     }
     assert (share / "launch" / "experiment.launch.py").is_file()
+    assert (share / "layouts" / "foxglove_tora.json").is_file()
     executables = {p.name for p in (prefix / "lib" / "fpt_ros").iterdir()}
     assert executables >= {
         "fpt", "plant_simulator", "denoiser", "trajectory_generator", "parameter_tuner",

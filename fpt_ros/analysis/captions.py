@@ -25,6 +25,11 @@ CAPTIONS = {
         "Nominal minus realised position. The error counts as "
         "settled to the right of the shaded time; its rms there stands above each panel.",
     ),
+    "errors_together": Caption(
+        "Tracking errors on top of each other",
+        "The same errors, those of all runs in one panel per coordinate: where one run covers "
+        "another they do not differ.",
+    ),
     "phase_trajectories": Caption(
         "Phase trajectories",
         "Velocity over position, nominal (broad band) and realised (line), from the initial state "
@@ -49,6 +54,13 @@ CAPTIONS = {
         "Coordinates that are not controlled",
         "Motion of the coordinates that no nominal trajectory is given for: what the dynamic "
         "coupling makes them do while the others are controlled.",
+    ),
+    "spectra": Caption(
+        "Spectra before and after the denoiser",
+        "Amplitude density of the measured position (broad) and of the position that the denoiser "
+        "makes of it (line), over the whole run (Welch, segments of 4096 cycles); both scales "
+        "logarithmic. Noise is where the broad line is flat; what the denoiser takes away lies "
+        "between the two.",
     ),
     "parameters": Caption(
         "Tuned parameters",

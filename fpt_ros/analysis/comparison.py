@@ -10,6 +10,9 @@ from fpt_ros.analysis.sizes import finite
 TRACKING = ("rms_settled", "max_settled", "rms")
 """Quantities of ``tracking`` that :func:`comparison` lists, the most telling first."""
 
+PERFORMANCE = ("iae", "ise", "itae", "rise_time", "settling_time", "overshoot_percent")
+"""Those that only a report has."""
+
 REAL_TIME = ("missed_deadlines", "latency_median_ms", "latency_p99_ms", "latency_max_ms")
 """Quantities of ``real_time`` that :func:`comparison` lists."""
 
@@ -20,8 +23,8 @@ class Row:
 
     Attributes:
         coordinate: whose; empty for what is of all.
-        quantity: ``rms_settled``, ``max_settled``, ``rms``, ``effort`` (its rms), ``chatter``, or
-            one of :data:`REAL_TIME`.
+        quantity: one of :data:`TRACKING` and :data:`PERFORMANCE`, ``effort`` (its rms),
+            ``energy``, ``chatter``, or one of :data:`REAL_TIME`.
         values: one a run; ``None`` where a run has none.
         ratios: each value over that of the run it is measured against (:func:`baselines`); none
             of what depends on the machine.
@@ -54,20 +57,20 @@ def comparison(summaries: Sequence[Summary]) -> list[Row]:
     rows = []
     tracked = _names(summaries, "tracking")
     for name in dict.fromkeys([*tracked, *_names(summaries, "effort")]):
-        if name in tracked:
-            rows += [
-                _row(summaries, name, key, [_entry(s, "tracking", name, key) for s in summaries])
-                for key in TRACKING
-            ]
-        efforts = [_entry(s, "effort", name, "rms") for s in summaries]
-        if any(efforts):  # a force that is zero by construction says nothing
-            rows.append(_row(summaries, name, "effort", efforts))
+        for key in (*TRACKING, *PERFORMANCE) if name in tracked else ():
+            values = [_entry(s, "tracking", name, key) for s in summaries]
+            if key in TRACKING or any(value is not None for value in values):
+                rows.append(_row(summaries, name, key, values))
+        for key, part in (("effort", "rms"), ("energy", "energy")):
+            efforts = [_entry(s, "effort", name, part) for s in summaries]
+            if any(efforts):  # a force that is zero by construction says nothing
+                rows.append(_row(summaries, name, key, efforts))
     chatter = [cast("float | None", s.get("chatter")) for s in summaries]
     rows.append(_row(summaries, "", "chatter", chatter))
     for key in REAL_TIME:
-        values = tuple(_timing(s).get(key) for s in summaries)
-        if any(value is not None for value in values):
-            rows.append(Row("", key, values, (None,) * len(values)))
+        timings = tuple(_timing(s).get(key) for s in summaries)
+        if any(value is not None for value in timings):
+            rows.append(Row("", key, timings, (None,) * len(timings)))
     return rows
 
 

@@ -88,7 +88,7 @@ def _denoise(
     if spacing.times is not None and not spacing.even and DENOISERS[method].whole is None:
         raise BadInput(
             f"{source.table.name}: {spacing.remarks[-1]}: {method} needs equal spacing, auto does "
-            f"not; or {REMEDY}"
+            f"not; {REMEDY}"
         )
     uneven = spacing.times is not None and DENOISERS[method].whole is not None
     return denoise(

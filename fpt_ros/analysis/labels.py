@@ -1,8 +1,9 @@
-"""What runs are called in headings and legends."""
+"""What runs are called in headings, and the colours of their coordinates."""
 
 from collections.abc import Callable, Sequence
 from typing import TypeVar
 
+from fpt_ros.analysis import style
 from fpt_ros.runs.run import Run
 
 R = TypeVar("R", bound=Run)
@@ -28,3 +29,9 @@ def run_labels(runs: Sequence[Run]) -> list[str]:
 def all_names(runs: Sequence[R], names: Callable[[R], Sequence[str]]) -> list[str]:
     """The names of all runs, each once, in the order in which they are met."""
     return list(dict.fromkeys(name for run in runs for name in names(run)))
+
+
+def colour_of(run: Run, name: str) -> str:
+    """The colour of a coordinate, the same in all figures of a run."""
+    states = run.topics.get("joint_states")
+    return style.colour(states.names if states is not None else (), name)

@@ -3,11 +3,9 @@
 from collections.abc import Sequence
 
 import numpy as np
-from matplotlib.axes import Axes
-from matplotlib.ticker import FormatStrFormatter, LogLocator, NullFormatter
 
 from fpt_ros.analysis import signals, style
-from fpt_ros.analysis.panels import Panels
+from fpt_ros.analysis.panels import Bars, Mark, Panel, Panels
 from fpt_ros.runs.latency import Latencies
 from fpt_ros.runs.run import Run
 
@@ -20,55 +18,44 @@ DEADLINE: style.Style = {**style.DASHED, "linewidth": 1.6}
 LEAST = 0.7
 """Foot of the logarithmic scale: a bin with one cycle in it can be seen."""
 
+MARGIN = 1.15
+"""Room on both sides of the bins, as a factor."""
+
 
 def latency(runs: Sequence[Run]) -> Panels | None:
     """Histogram of the latency from sensor to command, of the runs in real time."""
     runs = [run for run in runs if run.latency is not None and run.latency.total]
     if not runs:
         return None
-    panels = Panels.of(runs, [ROW], 3.0, time=False)
-    drawn = []
+    panels = Panels.of(runs, [ROW], 3.0, time=False, logarithmic=True)
     for name, column, run in panels.cells(runs):
         late = run.latency
         assert late is not None
-        axes = panels.take(name, column, np.array(late.counts, dtype=np.float64))
-        assert axes is not None
-        _draw(axes, late, signals.parameter_number(run, "plant_simulator", "dt"))
-        panels.note(name, column, f"{late.missed} of {late.cycles} deadlines missed")
-        drawn.append(axes)
-    panels.finish(
-        style.handle("median", MEDIAN),
-        style.handle("p99", P99),
-        style.handle("deadline", DEADLINE),
-    )
-    left, right = zip(*(axes.get_xlim() for axes in drawn), strict=True)
-    top = max(axes.get_ylim()[1] for axes in drawn)
-    for axes in drawn:
-        axes.set_xscale("log")
-        axes.set_yscale("log")
-        axes.set_xlim(min(left), max(right))
-        axes.set_ylim(LEAST, top)
-        axes.xaxis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
-        axes.xaxis.set_major_formatter(FormatStrFormatter("%g"))
-        axes.xaxis.set_minor_formatter(NullFormatter())
-        axes.set_xlabel("latency [ms]")
-    drawn[0].set_ylabel("cycles")
-    return panels
+        panel = panels.take(name, column, np.array(late.counts, dtype=np.float64))
+        assert panel is not None
+        _draw(panel, late, signals.parameter_number(run, "plant_simulator", "dt"))
+        panel.note = f"{late.missed} of {late.cycles} deadlines missed"
+    drawn = list(panels.taken.values())
+    ends = [end for panel in drawn if panel.bars is not None for end in panel.bars.borders]
+    ends += [mark.at for panel in drawn for mark in panel.marks]
+    most = max(count for panel in drawn if panel.bars is not None for count in panel.bars.counts)
+    for panel in drawn:
+        panel.x_span = min(ends) / MARGIN, max(ends) * MARGIN
+        panel.y_span = LEAST, 2.0 * most
+    return panels.finish("median", "p99", "deadline")
 
 
-def _draw(axes: Axes, late: Latencies, deadline: float | None) -> None:
+def _draw(panel: Panel, late: Latencies, deadline: float | None) -> None:
     """The bins from the first that is not empty to the last, and what stands at them."""
     used = np.flatnonzero(late.counts)
     first, last = int(used[0]), int(used[-1])
     borders = [1e3 * late.bounds(at)[0] for at in range(first, last + 1)]
     borders.append(1e3 * late.bounds(last)[1])
-    counts = late.counts[first : last + 1]
-    axes.stairs(counts, borders, fill=True, color=style.COORDINATES[0], alpha=0.75, baseline=LEAST)
-    marks = [(1e3 * late.quantile(0.5), MEDIAN), (1e3 * late.quantile(0.99), P99)]
+    panel.bars = Bars(borders, late.counts[first : last + 1])
+    panel.marks += [
+        Mark(1e3 * late.quantile(0.5), MEDIAN, "median"),
+        Mark(1e3 * late.quantile(0.99), P99, "p99"),
+    ]
     if deadline is not None:
-        marks.append((1e3 * deadline, DEADLINE))
-    for at, line in marks:
-        axes.axvline(at, **line)
-    ends = [*borders, *(at for at, _ in marks)]
-    axes.set_xlim(min(ends) / 1.15, max(ends) * 1.15)
-    axes.set_ylim(LEAST, 2.0 * max(counts))
+        panel.marks.append(Mark(1e3 * deadline, DEADLINE, "deadline"))
+    panel.x_label, panel.y_label = "latency [ms]", "cycles"

@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 
 from fpt_ros.analysis import signals
 from fpt_ros.analysis.signals import Stamps
+from fpt_ros.analysis.truth import Truth
 from fpt_ros.cycle.noise import Noise
 from fpt_ros.cycle.trajectory_generator import TrajectoryGenerator
 from fpt_ros.experiments.nominal import sample
@@ -20,7 +21,7 @@ from fpt_ros.runs.run import Array, Run
 class Motion:
     """Nominal and realised motion of one controlled coordinate, (N,) each.
 
-    Noise and delay that the simulator has put into the measurement are taken out again.
+    Noise, delay and what else the simulator has put into the measurement are taken out again.
 
     Attributes:
         time: since the run's first stamp [s].
@@ -70,6 +71,7 @@ class Motions:
         self._sharing = bool(signals.parameter(about, "trajectory_generator", "time_sharing"))
         self._stage: TrajectoryGenerator | None = None
         self._noise = _Noise.of(about)
+        self._truth = Truth.of(about)
         self._lines: dict[str, _DelayLine] = {}
 
     def take(self, chunk: Chunk) -> dict[str, Motion]:
@@ -83,16 +85,15 @@ class Motions:
         stamps, i, j = _common(desired.stamps, measured.stamps)
         time = (stamps - (self._origin or 0)) / SECOND
         found = {}
+        true = {} if self._truth is None else self._truth.take(chunk)
         for name in self._tracked(desired.names):
             if name not in measured.names:
                 found[name] = NONE
                 continue
-            position = measured.column("position", name)[j]
-            if self._noise is not None:
-                position = position - self._noise.of_position(name, stamps - (self._origin or 0))
-            velocity = measured.column("velocity", name)[j]
-            if np.isnan(velocity).all():  # not measured: what the denoiser makes of it
-                velocity = _estimated_velocity(chunk, name, stamps)
+            if name in true:
+                position, velocity = (each[j] for each in true[name])
+            else:
+                position, velocity = self._measured(chunk, name, stamps, j)
             if name in desired.names:
                 nominal = desired.column("positions", name)[i]
                 nominal_velocity = desired.column("velocities", name)[i]
@@ -103,10 +104,23 @@ class Motions:
                 nominal, nominal_velocity = nominal.copy(), nominal_velocity.copy()
                 nominal[away], nominal_velocity[away] = self._nominal(name, time[away])
             one = Motion(time, nominal, position, nominal_velocity, velocity)
-            if self._late:
+            if self._late and name not in true:
                 one = self._lines.setdefault(name, _DelayLine(self._late)).take(one)
             found[name] = one
         return found
+
+    def _measured(
+        self, chunk: Chunk, name: str, stamps: Stamps, where: "Where"
+    ) -> tuple[Array, Array]:
+        """Position and velocity as measured, without the noise of the position."""
+        measured = chunk["joint_states"]
+        position = measured.column("position", name)[where]
+        if self._noise is not None:
+            position = position - self._noise.of_position(name, stamps - (self._origin or 0))
+        velocity = measured.column("velocity", name)[where]
+        if np.isnan(velocity).all():  # not measured: what the denoiser makes of it
+            velocity = _estimated_velocity(chunk, name, stamps)
+        return position, velocity
 
     def _tracked(self, desired: Sequence[str]) -> Sequence[str]:
         """Coordinates whose error counts; with time sharing also before their first turn."""

@@ -1,6 +1,6 @@
 """A run in outline: what its figures need, taken chunk by chunk in constant memory."""
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
 import numpy as np
@@ -8,12 +8,14 @@ import numpy as np
 from fpt_ros.analysis import motions, signals
 from fpt_ros.analysis.metrics import Summary, summary
 from fpt_ros.analysis.motions import Motion, Motions
+from fpt_ros.analysis.performance import Performance, joined
 from fpt_ros.analysis.sizes import Size
-from fpt_ros.analysis.thinner import Thinned, Thinner, Window
+from fpt_ros.analysis.spectra import Spectra, Spectrum
+from fpt_ros.analysis.thinner import CAPACITY, Thinned, Thinner, Window
 from fpt_ros.messages.frames import SECOND
 from fpt_ros.parameters import Values
+from fpt_ros.runs.changes import Change
 from fpt_ros.runs.chunks import Chunk, aligned, ordered
-from fpt_ros.runs.latency import Latencies
 from fpt_ros.runs.run import Array, Run, Series
 
 NEAR = 16_384
@@ -55,6 +57,8 @@ NO_CURVE = Curve(np.empty(0), np.empty(0), (np.empty(0), np.empty(0)))
 class Outline(Run):
     """A run whose topics have names but no messages, and curves instead.
 
+    Stamps of changes count from the run's first.
+
     Attributes:
         end: time of the last measurement [s].
         numbers: the run's summary; ``None`` where nobody has taken it.
@@ -64,6 +68,7 @@ class Outline(Run):
         period: longest one of the nominal motions [s].
         near: every point of the responses in a window about the settle time.
         window: of ``near``; ``None`` where the curves are whole themselves.
+        spectra: of the positions before and after the denoiser, where there is one.
     """
 
     end: float = 0.0
@@ -74,6 +79,7 @@ class Outline(Run):
     period: float | None = None
     near: Mapping[Key, Curve] = field(default_factory=dict)
     window: Window | None = None
+    spectra: Mapping[str, Spectrum] = field(default_factory=dict)
 
     def curve(self, kind: tuple[str, str], name: str, within: Window | None = None) -> Curve:
         """A column over time, all of it or in a window; empty where the run has none."""
@@ -97,7 +103,7 @@ def outline(run: Run) -> Outline:
         return run
     outliner = Outliner(run.parameters)
     outliner.take(ordered(run.topics))
-    return outliner.result(run.info, run.latency)
+    return outliner.result(run)
 
 
 def numbers_of(run: Run) -> Summary:
@@ -108,8 +114,12 @@ def numbers_of(run: Run) -> Summary:
 
 
 def with_numbers(run: Run) -> Outline:
-    """The outline of a run with its summary."""
-    return replace(outline(run), numbers=numbers_of(run))
+    """The outline of a run with its summary, and how well it follows."""
+    if isinstance(run, Outline) and run.numbers is not None:
+        return run
+    performance = Performance(run.parameters)
+    performance.take(ordered(run.topics))
+    return replace(outline(run), numbers=joined(summary(run), performance.result()))
 
 
 class Outliner:
@@ -117,15 +127,18 @@ class Outliner:
 
     Args:
         parameters: of every node.
+        capacity: points of a curve that are kept at most.
     """
 
-    def __init__(self, parameters: Mapping[str, Values]) -> None:
+    def __init__(self, parameters: Mapping[str, Values], capacity: int = CAPACITY) -> None:
+        self._capacity = capacity
         self._about = about = Run({}, parameters, {})
         settled = signals.settle_time(about)
         span = NEAR * (signals.parameter_number(about, "plant_simulator", "dt") or 1e-3)
         first = max(settled - span, 0.0)
         self._window = Window(first, first + 2 * span)
         self._motions = Motions(about)
+        self._spectra = Spectra(parameters)
         self._thinners: dict[str, Thinner] = {}
         self._errors: dict[str, Size] = {}
         self._curves: dict[Key, Thinner] = {}
@@ -142,6 +155,7 @@ class Outliner:
             if not any(len(series.stamps) for series in chunk.values()):
                 return
             self._origin = signals.first_stamp(chunk)
+        self._spectra.take(chunk)
         for name, motion in self._motions.take(chunk).items():
             self._take_motion(name, motion)
         for topic, vector in KEPT:
@@ -164,7 +178,7 @@ class Outliner:
         late = signals.first_settled(self._about, motion.time)
         error = motion.error
         self._errors.setdefault(name, Size()).add(error[late:])
-        self._thinners.setdefault(name, Thinner(5, self._window)).take(
+        self._thinners.setdefault(name, Thinner(5, self._window, self._capacity)).take(
             motion.time,
             motion.nominal,
             motion.position,
@@ -185,15 +199,12 @@ class Outliner:
         window = self._window if (topic, vector) in RESPONSES else None
         for column, name in enumerate(names):
             key = topic, vector, name
-            self._curves.setdefault(key, Thinner(1, window)).take(time, numbers[:, column])
+            self._curves.setdefault(key, Thinner(1, window, self._capacity)).take(
+                time, numbers[:, column]
+            )
 
-    def result(
-        self,
-        info: Mapping[str, str],
-        latency: Latencies | None = None,
-        numbers: Summary | None = None,
-    ) -> Outline:
-        """The outline of the run, once it has ended."""
+    def result(self, about: Run, numbers: Summary | None = None) -> Outline:
+        """The outline of the run, once it has ended; ``about`` gives all but the topics."""
         controlled = self._topics["desired"].names if "desired" in self._topics else ()
         taken = {name: self._thinners.get(name, Thinner(5)) for name in controlled}
         found = {name: thinner.result() for name, thinner in taken.items()}
@@ -209,10 +220,11 @@ class Outliner:
                     near[key] = _curve(points.time, points.signals[0])
         moved = {name: _motion(thinned) for name, thinned in found.items()}
         return Outline(
-            info,
+            about.info,
             self._about.parameters,
             self._topics,
-            latency,
+            about.latency,
+            tuple(self._since_start(about.changes)),
             end=self._end,
             numbers=numbers,
             motions=moved,
@@ -221,7 +233,12 @@ class Outliner:
             period=motions.period(map(_motion, close.values())) or motions.period(moved.values()),
             near=near,
             window=None if whole else self._window,
+            spectra=self._spectra.result(),
         )
+
+    def _since_start(self, changes: Sequence[Change]) -> Iterator[Change]:
+        for change in changes:
+            yield replace(change, stamp=change.stamp - (self._origin or 0))
 
 
 def _motion(thinned: Thinned) -> Motion:

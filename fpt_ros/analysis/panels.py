@@ -1,18 +1,24 @@
-"""A grid of panels: a row a quantity, a column a run, and one scale a row for runs of one plant."""
+"""A grid of panels as data: a row a quantity, a column a run, one scale a row and plant.
+
+What stands in the panels is said once; ``printed`` draws it with matplotlib, ``plots`` with
+Bokeh.
+"""
 
 from collections.abc import Iterator, Sequence
-from typing import Any, TypeVar
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import TYPE_CHECKING, TypeVar
 
 import numpy as np
-from matplotlib.axes import Axes
-from matplotlib.figure import Figure
-from matplotlib.legend_handler import HandlerTuple
-from matplotlib.ticker import MaxNLocator
 
 from fpt_ros.analysis import signals, style
 from fpt_ros.analysis.labels import run_labels
-from fpt_ros.analysis.legends import Entry
+from fpt_ros.analysis.style import Style
+from fpt_ros.messages.frames import SECOND
 from fpt_ros.runs.run import Array, Run
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 R = TypeVar("R", bound=Run)
 
@@ -22,12 +28,92 @@ ABREAST = 3
 FLAT = 20
 """A run whose curves fill less than this part of a common scale gets a finer one."""
 
+CHANGED = "changed in flight"
+"""What the legend calls the marks of such changes."""
+
 Span = tuple[float, float]
 """Lowest and highest number of an axis."""
 
 
+@dataclass(frozen=True)
+class Curve:
+    """One curve of a panel.
+
+    Attributes:
+        x, y: (N,) points.
+        style: how it is drawn.
+        label: what the legend calls its kind; empty: it has no entry.
+        time: (N,) of a path, both of whose coordinates are signals; ``None``: x is the axis.
+    """
+
+    x: Array
+    y: Array
+    style: Style
+    label: str
+    time: Array | None
+
+
+@dataclass(frozen=True)
+class Mark:
+    """A line across the panel at one number; ``text`` says what happened there."""
+
+    at: float
+    style: Style
+    label: str = ""
+    text: str = ""
+
+
+@dataclass(frozen=True)
+class Bars:
+    """A histogram: (n + 1,) borders and (n,) counts."""
+
+    borders: Sequence[float]
+    counts: Sequence[int]
+
+
+@dataclass
+class Panel:
+    """What one panel shows.
+
+    Attributes:
+        x_label, y_label: of its axes, with units.
+        note: a few words above it, where they cover no curve.
+        curves: in the order in which they are drawn.
+        levels, marks: lines at one y, and at one x.
+        shaded: stretch of the x axis that does not count.
+        bars: a histogram.
+        x_span, y_span: what the axes show; ``None``: all there is.
+    """
+
+    x_label: str = ""
+    y_label: str = ""
+    note: str = ""
+    curves: list[Curve] = field(default_factory=list)
+    levels: list[Mark] = field(default_factory=list)
+    marks: list[Mark] = field(default_factory=list)
+    shaded: Span | None = None
+    bars: Bars | None = None
+    x_span: Span | None = None
+    y_span: Span | None = None
+
+    def draw(
+        self, x: Array, y: Array, style: Style, label: str = "", time: Array | None = None
+    ) -> None:
+        """Add a curve; of a path with its ``time``."""
+        if len(x):
+            self.curves.append(Curve(x, y, style, label, time))
+
+
+@dataclass(frozen=True)
+class Entry:
+    """Of a legend: a kind of line in all the styles that it has."""
+
+    label: str
+    styles: tuple[Style, ...]
+
+
 class Panels:
-    """Axes of one figure while it is being drawn.
+    """The panels of one figure.
 
     Args:
         rows: names of the quantities.
@@ -35,6 +121,13 @@ class Panels:
         groups: of each column; columns of one group share their scales.
         height: of a row [inch].
         time: the x axis is time, common to the rows of a column.
+        logarithmic: both axes.
+
+    Attributes:
+        taken: panels with something in them, by row and column.
+        remarks: what the caption has to say of the scales.
+        linked: its time is that of the other figures, not an excerpt's.
+        legend: entries, once the figure is finished.
     """
 
     def __init__(
@@ -43,66 +136,74 @@ class Panels:
         labels: Sequence[str],
         groups: Sequence[str],
         height: float,
-        time: bool,
+        time: bool = True,
+        logarithmic: bool = False,
     ) -> None:
-        self._rows, self._labels, self._groups, self._time = rows, labels, groups, time
+        self.rows, self.labels, self.groups = rows, labels, groups
+        self.height, self.time, self.logarithmic = height, time, logarithmic
         # a single run leaves room to set many rows beside each other
-        self._abreast = ABREAST if len(labels) == 1 and len(rows) > ABREAST else 1
-        columns = len(labels) if self._abreast == 1 else self._abreast
-        lines = -(-len(rows) // self._abreast)
-        width = {1: 8.0, 2: 10.5}.get(columns, 3.9 * columns)
-        if columns == 1 and not time:
-            width = 5.6
-        self.figure = Figure(figsize=(width, height * lines + 0.9), layout="constrained")
-        self._grid = self.figure.subplots(lines, columns, squeeze=False)
-        self._taken: dict[tuple[str, int], Axes] = {}
+        self.abreast = ABREAST if len(labels) == 1 and len(rows) > ABREAST else 1
+        self.taken: dict[tuple[str, int], Panel] = {}
+        self.remarks: list[str] = []
+        self.linked = True
+        self.legend: list[Entry] = []
         self._spans: dict[str, dict[tuple[str, int], Span]] = {"x": {}, "y": {}}
         self._extremes: dict[tuple[str, int], float] = {}
-        self._notes: dict[tuple[str, int], str] = {}
-        self._scales: dict[tuple[str, int], tuple[str, int]] = {}
-        self.remarks: list[str] = []
+        self._levels: dict[tuple[str, int], tuple[str, int]] = {}
+        self._changes: list[list[Mark]] = [[] for _ in labels]
 
     @property
     def empty(self) -> bool:
         """Whether no cell has anything in it."""
-        return not self._taken
+        return not self.taken
+
+    @cached_property
+    def figure(self) -> "Figure":
+        """The figure as the thesis prints it, to be saved within :func:`style.settings`."""
+        from fpt_ros.analysis import printed
+
+        return printed.figure(self)
 
     @classmethod
     def of(
-        cls, runs: Sequence[Run], rows: Sequence[str], height: float = 2.3, *, time: bool = True
+        cls,
+        runs: Sequence[Run],
+        rows: Sequence[str],
+        height: float = 2.3,
+        *,
+        time: bool = True,
+        logarithmic: bool = False,
     ) -> "Panels":
         """A column for each run; runs of one plant are a group."""
-        labels = [style.plain(label) for label in run_labels(runs)]
         groups = [str(signals.parameter(run, "plant_simulator", "plant")) for run in runs]
-        return cls(rows, labels, groups, height, time)
+        panels = cls(rows, run_labels(runs), groups, height, time, logarithmic)
+        if time:
+            panels._changes = [_changes(run) for run in runs]
+        return panels
 
     def cells(self, runs: Sequence[R]) -> Iterator[tuple[str, int, R]]:
         """Every (row, column, run)."""
-        for name in self._rows:
+        for name in self.rows:
             for column, run in enumerate(runs):
                 yield name, column, run
 
-    def _axes(self, name: str, column: int) -> Axes:
-        row = self._rows.index(name)
-        if self._abreast == 1:
-            return self._at(row, column)
-        return self._at(*divmod(row, self._abreast))
+    @property
+    def shape(self) -> tuple[int, int]:
+        """Lines and columns of the grid."""
+        columns = len(self.labels) if self.abreast == 1 else self.abreast
+        return -(-len(self.rows) // self.abreast), columns
 
-    def _at(self, row: int, column: int) -> Axes:
-        axes = self._grid[row][column]
-        assert isinstance(axes, Axes)
-        return axes
+    def place(self, name: str, column: int) -> tuple[int, int]:
+        """Line and column of a cell in the grid."""
+        row = self.rows.index(name)
+        return (row, column) if self.abreast == 1 else divmod(row, self.abreast)
 
-    def take(self, name: str, column: int, curve: Array) -> Axes | None:
-        """The axes for a cell, or ``None`` where the run has no numbers for it."""
+    def take(self, name: str, column: int, curve: Array) -> Panel | None:
+        """The panel of a cell, or ``None`` where the run has no numbers for it."""
         if not np.isfinite(curve).any():
             return None
-        axes = self._taken[name, column] = self._axes(name, column)
-        return axes
-
-    def note(self, name: str, column: int, text: str) -> None:
-        """A few words above a panel, where they cover no curve."""
-        self._notes[name, column] = text
+        panel = self.taken[name, column] = Panel(marks=[*self._changes[column]])
+        return panel
 
     def scale(self, name: str, column: int, *curves: Array, robust: bool = False) -> None:
         """Curves that the y axis of this cell shall show."""
@@ -121,33 +222,53 @@ class Panels:
         known = [np.abs(curve[np.isfinite(curve)]).max(initial=0.0) for curve in curves]
         self._extremes[name, column] = float(max(known))
 
-    def finish(self, *legend: Entry) -> "Panels":
-        """Scales, headings, labels at the outside, legend above all panels."""
-        for name in self._rows:
-            for group in dict.fromkeys(self._groups):
+    def finish(self, *legend: str) -> "Panels":
+        """Share the scales; ``legend``: labels of curves and levels, in this order."""
+        for name in self.rows:
+            for group in dict.fromkeys(self.groups):
                 self._share("x", name, group)
                 self._share("y", name, group)
         self._remark()
-        self._headings()
-        self._outer_labels()
-        self.figure.align_ylabels()
-        if legend:
-            handles: list[Any] = list(legend)  # matplotlib's stubs do not know tuples of them
-            self.figure.legend(
-                handles,
-                [str((e[0] if isinstance(e, tuple) else e).get_label()) for e in legend],
-                loc="outside upper center",
-                ncols=len(legend),
-                handler_map={tuple: HandlerTuple(ndivide=None, pad=0.3)},
-            )
+        labels = (*legend, CHANGED)
+        self.legend = [entry for label in labels if (entry := self._entry(label)).styles]
         return self
+
+    def _entry(self, label: str) -> Entry:
+        """All styles that lines of a kind have, each once."""
+        styles: list[Style] = []
+        for panel in self.taken.values():
+            lines: list[Curve | Mark] = [*panel.curves, *panel.levels, *panel.marks]
+            for line in lines:
+                if line.label == label and line.style not in styles:
+                    styles.append(line.style)
+        return Entry(label, tuple(styles))
+
+    def first_of_group(self, name: str, column: int) -> bool:
+        """Whether no panel to the left in its row is of the same plant."""
+        return not any(self.groups[c] == self.groups[column] for c in self._before(name, column))
+
+    def first_of_scale(self, name: str, column: int) -> bool:
+        """Whether no panel to the left in its row has the same scale."""
+        scale = self.scale_of(name, column)
+        return all(self.scale_of(name, c) != scale for c in self._before(name, column))
+
+    def scale_of(self, name: str, column: int) -> object:
+        """What the panels of a row that share their scale have in common."""
+        return self._levels.get((name, column), column)
+
+    def lowest(self, name: str, column: int) -> bool:
+        """Whether no panel stands below it."""
+        return self.abreast > 1 or [row for row, c in self.taken if c == column][-1] == name
+
+    def _before(self, name: str, column: int) -> list[int]:
+        return [c for row, c in self.taken if row == name and c < column]
 
     def _share(self, axis: str, name: str, group: str) -> None:
         """One scale for the runs of a group; a finer one for those that it would flatten."""
         spans = {
             column: span
             for (row, column), span in self._spans[axis].items()
-            if row == name and self._groups[column] == group
+            if row == name and self.groups[column] == group
         }
         level = 0
         while spans:
@@ -157,30 +278,29 @@ class Panels:
                 for column, span in spans.items()
                 if axis == "x" or span[1] - span[0] >= widest / FLAT
             }
-            low, high = min(s[0] for s in here.values()), max(s[1] for s in here.values())
+            common = min(s[0] for s in here.values()), max(s[1] for s in here.values())
             for column in here:
-                axes = self._taken[name, column]
+                panel = self.taken[name, column]
                 if axis == "x":
-                    axes.set_xlim(low, high)
+                    panel.x_span = common
                     continue
-                axes.set_ylim(low, high)
-                self._scales[name, column] = group, level
+                panel.y_span = common
+                self._levels[name, column] = group, level
                 if level:
-                    note = self._notes.get((name, column))
-                    self._notes[name, column] = f"{note}, finer scale" if note else "finer scale"
+                    panel.note += ", finer scale" if panel.note else "finer scale"
             spans = {column: span for column, span in spans.items() if column not in here}
             level += 1
 
     def _remark(self) -> None:
         """Say in the caption what the scales do."""
-        if any(level for _, level in self._scales.values()):
+        if any(level for _, level in self._levels.values()):
             self.remarks.append(
                 f"Runs that the common scale would flatten to less than 1/{FLAT} of the panel "
                 "have a finer one, as is written above them."
             )
         beyond: dict[str, float] = {}
         for (name, column), largest in self._extremes.items():
-            low, high = self._taken[name, column].get_ylim()
+            low, high = self.taken[name, column].y_span or (0.0, 0.0)
             if largest > max(abs(low), abs(high)):
                 beyond[name] = max(largest, beyond.get(name, 0.0))
         if beyond:
@@ -190,39 +310,16 @@ class Panels:
                 f"in size, {reach}."
             )
 
-    def _headings(self) -> None:
-        for cell, note in self._notes.items():
-            self._taken[cell].set_title(note, loc="right", fontweight="normal", color=style.INK)
-        used = {id(axes) for axes in self._taken.values()}
-        for axes in self._grid.flat:
-            if id(axes) not in used:
-                axes.set_axis_off()
-        if self._abreast > 1:
-            self._at(0, 0).set_title(self._labels[0], loc="left", pad=9)
-            return
-        noted = any(row == self._rows[0] for row, _ in self._notes)
-        for column, label in enumerate(self._labels):
-            # one line higher where a note stands above the panel
-            heading = f"{label}\n" if noted else label
-            self._at(0, column).set_title(heading, loc="left", pad=6)
-            for row, name in enumerate(self._rows):
-                if (name, column) not in self._taken:
-                    where = self._at(row, column)
-                    text = f"{style.symbol(name)}: no such curve"
-                    where.text(0.5, 0.5, text, ha="center", color=style.WANTED)
 
-    def _outer_labels(self) -> None:
-        """Time at the lowest panels only, y labels at the first of each group only."""
-        lowest: dict[int, str] = {column: row for row, column in self._taken}
-        for (row, column), axes in self._taken.items():
-            before = [c for r, c in self._taken if r == row and c < column]
-            if any(self._groups[c] == self._groups[column] for c in before):
-                axes.set_ylabel("")
-            scale = self._scales.get((row, column))
-            if any(self._scales.get((row, c)) == scale for c in before):
-                axes.tick_params(labelleft=False)
-            axes.xaxis.set_major_locator(MaxNLocator(7, steps=[1, 2, 4, 5, 10]))
-            if self._time and (lowest[column] == row or self._abreast > 1):
-                axes.set_xlabel("time [s]")
-            elif self._time:
-                axes.tick_params(labelbottom=False)
+def _changes(run: Run) -> list[Mark]:
+    """Where parameters were changed in flight."""
+    return [
+        Mark(
+            (change.stamp - signals.origin(run)) / SECOND,
+            style.CHANGE,
+            CHANGED,
+            f"{change.node}: "
+            + ", ".join(f"{name} = {value}" for name, value in change.values.items()),
+        )
+        for change in run.changes
+    ]

@@ -5,9 +5,13 @@ from pathlib import Path
 
 from fpt_ros.analysis.metrics import Metrics, Summary
 from fpt_ros.analysis.outline import Outline, Outliner
+from fpt_ros.analysis.performance import Performance, joined
 from fpt_ros.bags.reader import play
 from fpt_ros.parameters import Values
 from fpt_ros.runs.chunks import Consumer
+
+FINE = 131_072
+"""Points of a curve: of two minutes at 1 kHz every cycle can be looked at."""
 
 
 def read_summary(path: Path) -> Summary:
@@ -32,12 +36,13 @@ def read_outline(path: Path) -> Outline:
     Raises:
         BadInput: as :func:`~fpt_ros.bags.reader.read_run`.
     """
-    made: list[tuple[Metrics, Outliner]] = []
+    made: list[tuple[Metrics, Performance, Outliner]] = []
 
     def make(parameters: Mapping[str, Values]) -> list[Consumer]:
-        made.append((Metrics(parameters), Outliner(parameters)))
+        made.append((Metrics(parameters), Performance(parameters), Outliner(parameters, FINE)))
         return [*made[0]]
 
     run = play(path, make)
-    metrics, outliner = made[0]
-    return outliner.result(run.info, run.latency, metrics.result(run.info, run.latency))
+    metrics, performance, outliner = made[0]
+    numbers = joined(metrics.result(run.info, run.latency), performance.result())
+    return outliner.result(run, numbers)

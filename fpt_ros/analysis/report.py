@@ -1,13 +1,14 @@
 """The report: one page that holds everything, and the figures and numbers beside it."""
 
 import base64
-import io
 import json
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from fpt_ros.analysis import pages, signals, style
+from fpt_ros.analysis import pages, signals
+from fpt_ros.analysis.arm.film import film_of
+from fpt_ros.analysis.captions import CAPTIONS
 from fpt_ros.analysis.comparison import baselines, comparison
 from fpt_ros.analysis.figures import Chart, charts
 from fpt_ros.analysis.labels import run_labels
@@ -15,10 +16,14 @@ from fpt_ros.analysis.outline import Outline, with_numbers
 from fpt_ros.analysis.tables import content
 from fpt_ros.analysis.whole_files import write_whole
 from fpt_ros.errors import BadInput
+from fpt_ros.messages.frames import SECOND
 from fpt_ros.parameters import Value
 from fpt_ros.runs.run import Run
 
 TEMPLATE = "report.html.j2"
+
+FORMATS = ("svg", "pdf", "png")
+"""Of the figures beside the page."""
 
 
 @dataclass(frozen=True)
@@ -40,18 +45,20 @@ class About:
     facts: tuple[str, ...]
     complete: bool
     ending: str
+    changes: tuple[str, ...]
 
 
-def write_report(runs: Sequence[Run], directory: Path) -> Path:
+def write_report(runs: Sequence[Run], directory: Path, formats: Sequence[str] = ()) -> Path:
     """Write the report of runs side by side.
 
-    Writes ``index.html`` (complete in itself: no other file, no network), ``figures/NAME.svg`` and
-    ``figures/NAME.png`` (150 dpi), and ``summary.json`` (the runs' summaries, their comparison and
-    the captions). Each file appears whole or not at all.
+    Writes ``index.html`` (complete in itself: no other file, no network), ``summary.json`` (the
+    runs' summaries, their comparison and the captions), and ``figures/NAME.FORMAT``, the figures
+    in the thesis's layout. Each file appears whole or not at all.
 
     Args:
         runs: at least one.
         directory: made where it does not exist; files of an older report are replaced.
+        formats: of the figures, of :data:`FORMATS`.
 
     Returns:
         Path of the page.
@@ -61,13 +68,10 @@ def write_report(runs: Sequence[Run], directory: Path) -> Path:
     """
     outlines = [with_numbers(run) for run in runs]
     found = charts(outlines)
-    pictures = {name: _rendered(chart, "svg") for name, chart in found.items()}
-    page = _page(outlines, found, pictures)
+    page = _page(outlines, found)
     try:
-        (directory / "figures").mkdir(parents=True, exist_ok=True)
-        for name, chart in found.items():
-            write_whole(directory / "figures" / f"{name}.svg", pictures[name])
-            write_whole(directory / "figures" / f"{name}.png", _rendered(chart, "png"))
+        directory.mkdir(parents=True, exist_ok=True)
+        _write_figures(found, directory / "figures", formats)
         write_whole(directory / "summary.json", _numbers(outlines, found).encode())
         write_whole(directory / "index.html", page.encode())
     except OSError as error:
@@ -78,16 +82,22 @@ def write_report(runs: Sequence[Run], directory: Path) -> Path:
     return directory / "index.html"
 
 
-def _rendered(chart: Chart, kind: str) -> bytes:
-    buffer = io.BytesIO()
-    # no date: the same runs give the same file
-    metadata = {"Date": None} if kind == "svg" else {}
-    with style.settings():
-        chart.figure.savefig(buffer, format=kind, metadata=metadata)
-    return buffer.getvalue()
+def _write_figures(found: Mapping[str, Chart], directory: Path, formats: Sequence[str]) -> None:
+    """The figures in these formats; those of an older report go."""
+    for name in CAPTIONS:
+        for kind in FORMATS:
+            (directory / f"{name}.{kind}").unlink(missing_ok=True)
+    if not formats:
+        return
+    from fpt_ros.analysis.printed import encoded  # matplotlib, where it is asked for
+
+    directory.mkdir(exist_ok=True)
+    for name, chart in found.items():
+        for kind, data in encoded(chart.figure, formats).items():
+            write_whole(directory / f"{name}.{kind}", data)
 
 
-def _numbers(runs: Sequence[Outline], found: dict[str, Chart]) -> str:
+def _numbers(runs: Sequence[Outline], found: Mapping[str, Chart]) -> str:
     summaries = [run.numbers or {} for run in runs]
     rows = [
         {
@@ -110,14 +120,22 @@ def _numbers(runs: Sequence[Outline], found: dict[str, Chart]) -> str:
     return json.dumps(whole, indent=2, allow_nan=False, ensure_ascii=False) + "\n"
 
 
-def _page(runs: Sequence[Outline], found: dict[str, Chart], pictures: dict[str, bytes]) -> str:
-    encoded = {name: base64.b64encode(data).decode() for name, data in pictures.items()}
+def _page(runs: Sequence[Outline], found: Mapping[str, Chart]) -> str:
+    from fpt_ros.analysis.plots.document import plots  # Bokeh takes half a second
+
+    # a page that can be zoomed needs no excerpt, unless curves of long runs lack points
+    thinned = any(run.window is not None for run in runs)
+    shown = {n: c for n, c in found.items() if c.panels.linked or thinned}
+    drawn = plots({name: chart.panels for name, chart in shown.items()})
     return pages.render(
         TEMPLATE,
         title=_title(runs),
         abouts=[_about(run, label) for run, label in zip(runs, run_labels(runs), strict=True)],
         table=content(runs),
-        charts=[(chart, encoded[name]) for name, chart in found.items()],
+        charts=[(chart, drawn.places[name]) for name, chart in shown.items()],
+        library=drawn.library,
+        script=drawn.script,
+        films=_films(runs),
         labels=run_labels(runs),
         nodes=differences(runs),
         real_time=any(run.latency is not None for run in runs),
@@ -132,6 +150,16 @@ def _title(runs: Sequence[Run]) -> str:
         given = signals.parameter(run, "recorder", "title")
         titles.append(str(given or run.info.get("experiment", "") or "run"))
     return " and ".join(dict.fromkeys(titles))
+
+
+def _films(runs: Sequence[Outline]) -> list[tuple[str, str, str]]:
+    """Label, film and still of every run of an arm, for the page."""
+    found = [(label, film_of(run)) for run, label in zip(runs, run_labels(runs), strict=True)]
+    return [
+        (label, base64.b64encode(film.film).decode(), base64.b64encode(film.still).decode())
+        for label, film in found
+        if film is not None
+    ]
 
 
 def _about(run: Outline, label: str) -> About:
@@ -153,9 +181,13 @@ def _about(run: Outline, label: str) -> About:
         *(() if late is None else (f"real time, {late.missed} of {late.cycles} deadlines missed",)),
     )
     sentence = shows[:1].upper() + shows[1:]
-    return About(
-        label, sentence.rstrip(".") + "." if sentence else "", thesis, facts, complete, ending
+    changes = tuple(
+        f"{change.stamp / SECOND:g} s: {change.node}."
+        + ", ".join(f"{name} = {_value_text(value)}" for name, value in change.values.items())
+        for change in run.changes
     )
+    whole = sentence.rstrip(".") + "." if sentence else ""
+    return About(label, whole, thesis, facts, complete, ending, changes)
 
 
 def differences(runs: Sequence[Run]) -> dict[str, list[Difference]]:

@@ -5,8 +5,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from fpt_ros.analysis import signals, style
-from fpt_ros.analysis.labels import all_names
-from fpt_ros.analysis.legends import colour_of, realised
+from fpt_ros.analysis.labels import all_names, colour_of
 from fpt_ros.analysis.outline import (
     DEFORMED,
     DESIRED,
@@ -17,7 +16,7 @@ from fpt_ros.analysis.outline import (
     Outline,
     outline,
 )
-from fpt_ros.analysis.panels import Panels
+from fpt_ros.analysis.panels import Mark, Panels
 from fpt_ros.analysis.thinner import Window
 from fpt_ros.cycle.tuned import FACTOR
 from fpt_ros.runs.run import Array, Run
@@ -31,7 +30,10 @@ def responses(runs: Sequence[Run]) -> Panels | None:
 def responses_zoom(runs: Sequence[Run]) -> Panels | None:
     """The same for half a period about the settle time (Fig. 3.25)."""
     outlines = [outline(run) for run in runs]
-    return _responses(outlines, [_excerpt(run) for run in outlines])
+    panels = _responses(outlines, [_excerpt(run) for run in outlines])
+    if panels is not None:
+        panels.linked = False
+    return panels
 
 
 def _excerpt(run: Outline) -> Window:
@@ -54,25 +56,21 @@ def _responses(runs: Sequence[Outline], windows: Sequence[Window | None]) -> Pan
             run.curve(DEFORMED, name, window),
             run.curve(REALISED, name, window),
         )
-        axes = panels.take(name, column, desired.values)
-        if axes is None:
+        panel = panels.take(name, column, desired.values)
+        if panel is None:
             continue
-        style.draw(axes, desired.time, desired.values, style.BAND)
-        style.draw(axes, observed.time, observed.values, style.thin(colour_of(run, name)))
-        style.draw(axes, deformed.time, deformed.values, style.DASHED)
+        realised = style.thin(colour_of(run, name))
+        panel.draw(desired.time, desired.values, style.BAND, "desired")
+        panel.draw(observed.time, observed.values, realised, "realised")
+        panel.draw(deformed.time, deformed.values, style.DASHED, "deformed")
         unit = signals.unit(run, name)
-        axes.set_ylabel(style.label(f"response of {style.symbol(name)}", unit, "s²"))
+        panel.y_label = style.label(f"response of {style.symbol(name)}", unit, "s²")
         late = [_settled(run, curve) for curve in curves]
         settled = window is None and all(len(y) for y in late)
         bulk = late if settled else [curve.typical[1] for curve in curves]
         panels.scale(name, column, *bulk, robust=True)
         panels.extent(name, column, *[curve.values for curve in curves])
-    legend = (
-        style.handle("desired", style.BAND),
-        style.handle("deformed", style.DASHED),
-        realised(runs, rows),
-    )
-    return panels.finish(*legend)
+    return panels.finish("desired", "deformed", "realised")
 
 
 def _settled(run: Outline, curve: Curve) -> Array:
@@ -90,11 +88,11 @@ def forces(runs: Sequence[Run]) -> Panels | None:
     panels = Panels.of(outlines, rows)
     for name, column, run in panels.cells(outlines):
         curve = run.curve(EFFORT, name)
-        axes = panels.take(name, column, curve.values)
-        if axes is not None:
-            style.draw(axes, curve.time, curve.values, style.thin(colour_of(run, name)))
+        panel = panels.take(name, column, curve.values)
+        if panel is not None:
+            panel.draw(curve.time, curve.values, style.thin(colour_of(run, name)))
             unit = signals.effort_unit(run, name)
-            axes.set_ylabel(style.label(style.symbol(name, force=True), unit))
+            panel.y_label = style.label(style.symbol(name, force=True), unit)
             late = _settled(run, curve)
             panels.scale(name, column, late if len(late) else curve.typical[1], robust=True)
             panels.extent(name, column, curve.values)
@@ -120,19 +118,17 @@ def parameters(runs: Sequence[Run]) -> Panels | None:
         return None
     panels = Panels.of(outlines, rows, 1.7)
     exact_line = {**style.DASHED, "color": style.INK}
+    tuned_line = style.thin(style.COORDINATES[0])
     for name, column, run in panels.cells(outlines):
         curve = run.curve(TUNED, name)
-        axes = panels.take(name, column, curve.values)
-        if axes is not None:
+        panel = panels.take(name, column, curve.values)
+        if panel is not None:
             exact = signals.exact_coefficients(run).get(name)
             shown = [curve.values]
             if exact is not None:
-                axes.axhline(exact, **exact_line)
+                panel.levels.append(Mark(exact, exact_line, "exact"))
                 shown.append(np.array([exact]))
-            style.draw(axes, curve.time, curve.values, style.thin(style.COORDINATES[0]))
-            axes.set_ylabel(style.plain(name))
+            panel.draw(curve.time, curve.values, tuned_line, "tuned")
+            panel.y_label = style.plain(name)
             panels.scale(name, column, *shown)
-    return panels.finish(
-        style.handle("tuned", style.thin(style.COORDINATES[0])),
-        style.handle("exact", exact_line),
-    )
+    return panels.finish("tuned", "exact")

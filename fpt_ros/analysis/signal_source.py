@@ -6,6 +6,7 @@ from pathlib import Path
 
 import numpy as np
 
+from fpt_ros.bags.files import METADATA, SUFFIXES
 from fpt_ros.denoising.noisy import EXAMPLE, PREFIX, parse
 from fpt_ros.errors import BadInput
 from fpt_ros.runs.run import Array
@@ -14,7 +15,7 @@ from fpt_ros.tables.opening import STDIN
 from fpt_ros.tables.reading import TAKES, read
 from fpt_ros.tables.spacing import Spacing, spacing_of
 from fpt_ros.tables.table import Column, Kind, Table
-from fpt_ros.tables.time_axis import TimeAxis, find, unread
+from fpt_ros.tables.time_axis import NONE, TimeAxis, find, unread
 
 ALL = "all"
 """The word for every column of numbers but the times."""
@@ -30,7 +31,8 @@ class Request:
         columns: names, or ``all``; where none is given the last one with numbers.
         topic, field: of a recording, as in ``/joint_states`` and ``position[2]``.
         joint: of a recording, by name; ``field`` then is ``position``, without an index.
-        time: name of the column of times, or ``none``; where it is not given it is looked for.
+        time: name of the column of times, or ``none``; where it is not given it is looked for. Of a
+            recording the field of a message that tells its time, as ``header.stamp``.
     """
 
     path: Path
@@ -85,7 +87,7 @@ def load(request: Request, done: Callable[[int], None] = lambda _: None) -> Sour
             f"{path} does not exist: it takes a table ({TAKES}), a recording, or a test signal, as "
             f"in {EXAMPLE}"
         )
-    if path.is_dir() or path.suffix in (".mcap", ".bag", ".db3"):
+    if path.is_dir() or path.name.endswith((*SUFFIXES, ".bag", METADATA)):
         return _recorded(request)
     if recorded:
         raise BadInput("--topic, --field and --joint are for recordings: a table takes --column")
@@ -100,8 +102,10 @@ def _recorded(request: Request) -> Source:
         raise BadInput(f"{request.path} is a recording: --topic and --field say which signal")
     if request.columns:
         raise BadInput(f"{request.path} is a recording: it takes --topic and --field, no --column")
-    table = read_recording(request.path, request.topic, request.field, request.joint)
-    return _of_table(table, request)
+    own = request.time in (None, NONE, "time")
+    clock = "" if own or request.time is None else request.time
+    table = read_recording(request.path, request.topic, request.field, request.joint, clock)
+    return _of_table(table, request if own else replace(request, time=None))
 
 
 def _of_table(table: Table, request: Request) -> Source:

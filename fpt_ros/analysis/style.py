@@ -3,15 +3,16 @@
 import re
 from collections.abc import Iterable, Sequence
 from contextlib import AbstractContextManager
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-import matplotlib
 import numpy as np
-from matplotlib.axes import Axes
-from matplotlib.lines import Line2D
 
 from fpt_ros.analysis import decimate
 from fpt_ros.runs.run import Array
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.lines import Line2D
 
 Style = dict[str, Any]
 """What matplotlib draws a line with."""
@@ -53,6 +54,10 @@ WANTED = "#b4b8bf"
 
 INK = "#374151"
 
+ZERO: Style = {"color": INK, "linewidth": 0.7, "zorder": 1}
+CHANGE: Style = {"color": "#7c3aed", "linewidth": 1.0, "linestyle": (0, (1.0, 1.5)), "zorder": 1}
+"""Where a parameter was changed in flight."""
+
 HUGE = 1e150
 """Numbers beyond it are as good as infinite: their differences overflow."""
 
@@ -67,6 +72,8 @@ DASHED: Style = {
 
 def settings() -> AbstractContextManager[None]:
     """Within it figures are made and saved in this style, whatever the user's matplotlibrc says."""
+    import matplotlib  # the page does without
+
     return matplotlib.rc_context(RC)
 
 
@@ -98,6 +105,16 @@ def symbol(name: str, force: bool = False) -> str:
     return f"${letter}_{{{number}}}$" if number else f"${letter}$"
 
 
+_SUBSCRIPTS = str.maketrans("0123456789", "₀₁₂₃₄₅₆₇₈₉")
+
+
+def spoken(text: str) -> str:
+    """A label of these figures without mathematics: ``q₂`` for what :func:`symbol` gives."""
+    text = re.sub(r"_\{(\d+)\}", lambda found: found[1].translate(_SUBSCRIPTS), text)
+    text = text.replace(r"^{\,N}", "ᴺ").replace(r"-\,", " − ")
+    return text.replace(r"\$", "\0").replace("$", "").replace("\0", "$")
+
+
 def label(quantity: str, unit: str, per: str = "") -> str:
     """Axis label with its unit, where there is one; ``per``: ``s`` or ``s²``."""
     if not unit:
@@ -105,7 +122,7 @@ def label(quantity: str, unit: str, per: str = "") -> str:
     return f"{quantity} [{unit}/{per}]" if per else f"{quantity} [{unit}]"
 
 
-def draw(axes: Axes, x: Array, y: Array, style: Style, phase: bool = False) -> None:
+def draw(axes: "Axes", x: Array, y: Array, style: Style, phase: bool = False) -> None:
     """One curve of as many points as can be seen; ``phase``: x is a signal as well."""
     if len(x):
         kept = decimate.keep_path(x, y) if phase else decimate.keep(y)
@@ -113,8 +130,10 @@ def draw(axes: Axes, x: Array, y: Array, style: Style, phase: bool = False) -> N
         axes.plot(x[kept], y[kept], **style, **marker)
 
 
-def handle(text: str, style: Style) -> Line2D:
+def handle(text: str, style: Style) -> "Line2D":
     """Legend entry for a kind of line."""
+    from matplotlib.lines import Line2D
+
     return Line2D([], [], label=text, **style)
 
 

@@ -19,7 +19,14 @@ QUANTITIES = {
     "rms_settled": "error, rms settled",
     "max_settled": "error, max settled",
     "rms": "error, rms of all",
+    "iae": "error, IAE",
+    "ise": "error, ISE",
+    "itae": "error, ITAE",
+    "rise_time": "rise time",
+    "settling_time": "settling time",
+    "overshoot_percent": "overshoot",
     "effort": "effort, rms",
+    "energy": "energy",
     "chatter": "chatter, mean |r(k) - r(k-1)|",
     "missed_deadlines": "missed deadlines",
     "latency_median_ms": "latency, median [ms]",
@@ -27,6 +34,18 @@ QUANTITIES = {
     "latency_max_ms": "latency, max [ms]",
 }
 """What the rows of :func:`~fpt_ros.analysis.comparison.comparison` are called."""
+
+UNITS = {"rise_time": "s", "settling_time": "s", "overshoot_percent": "%"}
+"""Units that are the same for all coordinates."""
+
+PER = {"iae": " s", "ise": "² s", "itae": " s²"}
+"""What stands behind the unit of the error."""
+
+WORK = (("N m", "rad"), ("N", "m"))
+"""Units of an effort and its coordinate whose product is 1 J."""
+
+NEUTRAL = ("effort", "energy", "chatter", "rise_time")
+"""Of these less is not better in itself."""
 
 
 @dataclass(frozen=True)
@@ -125,24 +144,36 @@ def _cell(row: Row, column: int, base: int) -> Cell:
         return Cell(str(value), "", None)
     if ratio is None or base == column:
         return Cell(number_text(value), "", None)
-    error = row.quantity not in ("effort", "chatter")
+    error = row.quantity not in NEUTRAL
     better = ratio < 1.0 if error and ratio != 1.0 else None
     return Cell(number_text(value), ratio_text(ratio), better)
 
 
 def _unit(row: Row, runs: Sequence[Run | Summary]) -> str:
     """The unit of a row, where all runs agree on it."""
+    if row.quantity in UNITS:
+        return f" [{UNITS[row.quantity]}]"
     if not row.coordinate:
         return ""
-    of = signals.effort_unit if row.quantity == "effort" else signals.unit
     having = [
         run
         for run, value in zip(runs, row.values, strict=True)
         if isinstance(run, Run) and value is not None
     ]
-    units = {of(run, row.coordinate) for run in having}
+    units = {_unit_of(run, row) for run in having}
     unit = units.pop() if len(units) == 1 else ""
     return f" [{unit}]" if unit else ""
+
+
+def _unit_of(run: Run, row: Row) -> str:
+    unit, effort = signals.unit(run, row.coordinate), signals.effort_unit(run, row.coordinate)
+    if row.quantity == "effort":
+        return effort
+    if row.quantity == "energy":
+        return "J" if (effort, unit) in WORK else ""
+    if not unit:
+        return ""
+    return unit + PER.get(row.quantity, "")
 
 
 def _note(headings: Sequence[str], against: Sequence[int]) -> str:

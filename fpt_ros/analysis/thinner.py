@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from fpt_ros.runs.run import Array
 
 CAPACITY = 32_768
-"""Points that are kept at most; up to so many nothing is dropped."""
+"""Points that are kept at most, unless more are asked for; up to so many nothing is dropped."""
 
 GOLDEN = np.uint64(0x9E3779B97F4A7C15)
 """Odd, near 2^64 over the golden ratio: multiples of it, modulo 2^64, are in no order."""
@@ -51,17 +51,19 @@ class Thinner:
     """Takes signals piece by piece; keeps of each bucket of points the extremes of every signal.
 
     A bucket is a number of points in a row, a power of two that grows with the number of points so
-    that all buckets together fit into CAPACITY. Of each bucket there are also its first gap (NaN)
-    and a point picked at random, and the very first and last point are kept. What is kept does not
-    depend on the sizes of the pieces.
+    that all buckets together fit into the capacity. Of each bucket there are also its first gap
+    (NaN) and a point picked at random, and the very first and last point are kept. What is kept
+    does not depend on the sizes of the pieces.
 
     Args:
         signals: number of signals.
         near: where every point is kept as well.
+        capacity: points that are kept at most.
     """
 
-    def __init__(self, signals: int, near: Window | None = None) -> None:
-        self._buckets = CAPACITY // (2 * signals + 2)
+    def __init__(self, signals: int, near: Window | None = None, capacity: int = CAPACITY) -> None:
+        self._capacity = capacity
+        self._buckets = capacity // (2 * signals + 2)
         self._parts: list[Array] = []
         self._held = 0
         self._near: list[Array] = []
@@ -83,12 +85,12 @@ class Thinner:
         window = self._window
         if window is not None and time[-1] >= window.first and time[0] <= window.last:
             self._near.append(table[window.inside(time)])
-        if self._held > 2 * CAPACITY:
+        if self._held > 2 * self._capacity:
             self._compact()
 
     def _compact(self) -> Array:
         table = np.concatenate(self._parts) if self._parts else np.empty((0, self._width))
-        if self.count > CAPACITY:
+        if self.count > self._capacity:
             table = table[_chosen(table, self._bucket())]
         self._parts, self._held = [table], len(table)
         return table
@@ -103,7 +105,7 @@ class Thinner:
     def result(self) -> Thinned:
         """The points so far."""
         table = self._compact()
-        whole = self.count <= CAPACITY
+        whole = self.count <= self._capacity
         typical = np.full(len(table), True)
         if not whole:
             typical[:] = False

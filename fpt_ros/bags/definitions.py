@@ -1,7 +1,7 @@
 """What the types of a recording's topics look like: as it says itself, or as Jazzy has them."""
 
 from collections.abc import Callable
-from functools import cache
+from functools import cache, lru_cache
 
 from rosbags.interfaces import Nodetype
 from rosbags.typesys import Stores, get_types_from_idl, get_types_from_msg, get_typestore
@@ -60,14 +60,19 @@ def _known(source: Source, kind: Kind, name: str) -> Definitions:
     known = _jazzy()
     if kind.definition and kind.form in _PARSERS:
         try:
-            text = kind.definition.decode()
-            return {**known, **_PARSERS[kind.form](text, name)}
+            return {**known, **_parsed(kind.form, kind.definition.decode(), name)}
         except Exception as error:  # whatever the parsers stumble over
             if name not in known:
                 raise BadInput(
                     f"{source.topic}: the definition of {name} cannot be read"
                 ) from error
     return known
+
+
+@lru_cache(maxsize=64)
+def _parsed(form: str, text: str, name: str) -> Definitions:
+    """Split recordings say the same in each file."""
+    return _PARSERS[form](text, name)
 
 
 @cache

@@ -117,17 +117,21 @@ FORMATS: dict[str, Callable[[Tables], bytes]] = {
     "npz": npz,
 }
 
+FLAT = "mcap"
+"""Not of tables: :mod:`fpt_ros.bags.flat`."""
+
 
 def target(path: Path, form: str, out: Path | None) -> Path:
-    """The file to write: what was asked for, or NAME.FORM beside the recording.
+    """The file to write: what was asked for, or NAME.FORM (NAME-flat.mcap) beside the recording.
 
     Raises:
         BadInput: the format is not known, or the file is the recording itself.
     """
-    if form not in FORMATS:
-        raise BadInput(f"--format {form}: formats are {', '.join(FORMATS)}")
+    if form not in (*FORMATS, FLAT):
+        raise BadInput(f"--format {form}: formats are {', '.join((*FORMATS, FLAT))}")
     whole = path.absolute()
-    chosen = out or whole.with_name(f"{whole.name if whole.is_dir() else whole.stem}.{form}")
+    name = whole.name if whole.is_dir() else whole.stem
+    chosen = out or whole.with_name(f"{name}{'-flat' if form == FLAT else ''}.{form}")
     if chosen.absolute() == whole or chosen.is_dir():
         raise BadInput(f"--out {chosen} is the recording or a folder: give the name of a file")
     return chosen

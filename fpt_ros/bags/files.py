@@ -7,10 +7,10 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-from ruamel.yaml import YAML
 from ruamel.yaml.error import YAMLError
 
 from fpt_ros.errors import BadInput
+from fpt_ros.yaml_text import parse
 
 METADATA = "metadata.yaml"
 SUFFIXES = (".mcap", ".db3", ".mcap.zstd", ".db3.zstd", ".mcap.zst", ".db3.zst")
@@ -100,7 +100,7 @@ def _read_metadata(folder: Path, files: Files) -> list[str]:
     """Names of the files that metadata.yaml lists."""
     path = folder / METADATA
     try:
-        content = YAML(typ="safe", pure=True).load(path.read_text(encoding="utf-8"))
+        content = parse(path.read_text(encoding="utf-8"))
         about = content["rosbag2_bagfile_information"]
         names = [str(name) for name in about["relative_file_paths"]]
     except FileNotFoundError:

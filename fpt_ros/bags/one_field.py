@@ -11,6 +11,10 @@ from fpt_ros.bags.bag import Bag
 from fpt_ros.bags.block import Source
 from fpt_ros.bags.numbers import Part, Reading
 from fpt_ros.errors import BadInput
+from fpt_ros.messages.frames import SECOND
+
+HEADER = "header.stamp"
+"""Where messages of ROS tell when they were sent, or what they tell was measured."""
 
 
 @dataclass(frozen=True)
@@ -19,7 +23,7 @@ class Signal:
 
     Attributes:
         name: as in ``/joint_states.position.elbow``.
-        stamps: (n,) log times [ns], ascending.
+        stamps: (n,) times [ns], ascending: of recording, or of the clock that was asked for.
         values: (n,), NaN where a message lacks the number.
         warnings: what its user should know, a line each: damage of the recording, joints that
             change their places.
@@ -31,7 +35,9 @@ class Signal:
     warnings: tuple[str, ...] = ()
 
 
-def read_field(path: Path, topic: str, field: str, joint: str | None = None) -> Signal:
+def read_field(
+    path: Path, topic: str, field: str, joint: str | None = None, clock: str = ""
+) -> Signal:
     """Read a signal.
 
     A joint is found by its name, wherever it stands in a message, and messages that do not name it
@@ -43,6 +49,8 @@ def read_field(path: Path, topic: str, field: str, joint: str | None = None) -> 
         topic: with or without the first ``/``.
         field: ``position[2]``, ``position.elbow``, ``pose.position.x``, ``points[0].effort[1]``.
         joint: name of the joint, ``field`` then is the array, as ``position``.
+        clock: field of the message that tells its time, as ``header.stamp``; by default the time at
+            which it was recorded counts.
 
     Raises:
         BadInput: the recording cannot be read, or has no such topic, field or joint (says which
@@ -58,10 +66,38 @@ def read_field(path: Path, topic: str, field: str, joint: str | None = None) -> 
     values, present = picked.values()
     if not picked.found:
         raise BadInput(picked.complaint())
-    order = np.argsort(reading.stamps[present], kind="stable")
+    told = _told(reading, clock or HEADER, present)
+    if clock and told is None:
+        raise BadInput(f"--time {clock}: messages on {topic} have no such time, of sec and nanosec")
+    stamps = told if clock and told is not None else reading.stamps[present]
+    order = np.argsort(stamps, kind="stable")
     name = f"{source.topic}.{field}" + (f".{joint}" if joint else "")
-    warnings = (*bag.missing, *bag.notes, *picked.warnings())
-    return Signal(name, reading.stamps[present][order], values[present][order], tuple(warnings))
+    warnings = [*bag.missing, *bag.notes, *picked.warnings()]
+    if told is not None and not clock and _unevenness(stamps) > max(0.1, 2 * _unevenness(told)):
+        warnings.append(
+            f"messages on {topic} were recorded at uneven times: --time {HEADER} takes those at "
+            "which they were sent"
+        )
+    return Signal(name, stamps[order], values[present][order], tuple(warnings))
+
+
+def _told(reading: Reading, clock: str, present: NDArray[np.bool_]) -> NDArray[np.int64] | None:
+    """Times [ns] that the messages themselves tell; None: not all of them do."""
+    stamps = np.zeros(len(present), dtype=np.int64)
+    known = np.zeros(len(present), dtype=bool)
+    for part in reading.parts:
+        seconds, nanoseconds = (part.numbers.get(f"{clock}.{unit}") for unit in ("sec", "nanosec"))
+        if seconds is not None and nanoseconds is not None:
+            stamps[part.at] = seconds[:, 0].astype(np.int64) * SECOND + nanoseconds[:, 0]
+            known[part.at] = True
+    return stamps[present] if known[present].all() else None
+
+
+def _unevenness(stamps: NDArray[np.int64]) -> float:
+    """How far steps of time are from the middle one, in steps, on average; 0 for fewer than 3."""
+    steps = np.diff(np.sort(stamps)).astype(float)
+    middle = float(np.median(steps)) if len(steps) > 1 else 0.0
+    return float(np.mean(np.abs(steps - middle))) / middle if middle > 0 else 0.0
 
 
 def _one_topic(
@@ -149,6 +185,8 @@ class _Picked:
         names = columns.all_names(self._reading)
         known = {joint for part in self._reading.parts for joint in columns.joints(part.layout)}
         if self._joint is not None and self._joint not in known:
+            if any(self._joint in part.layout.texts.values() for part in self._reading.parts):
+                return f"--joint {self._joint}: messages on {self._topic} name a joint twice"
             there = ", ".join(sorted(known)) or "none"
             return f"--joint {self._joint}: {self._topic} has the joints {there}"
         if self._reading.left_out & {self._field, columns.split_element(self._field)[0]}:

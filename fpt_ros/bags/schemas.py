@@ -1,5 +1,6 @@
 """What a recording says about a topic: definition and hash of its type, quality of service."""
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cache
 from io import StringIO
@@ -54,6 +55,16 @@ def decode(type: str, data: bytes) -> Any:
         Exception: of rosbags, where the bytes are not of this type.
     """
     return _store().deserialize_cdr(data, schema(type).type)
+
+
+def encode(type: str, message: Any) -> bytes:
+    """An object made of :func:`types`, serialised."""
+    return bytes(_store().serialize_cdr(message, type))
+
+
+def types() -> Mapping[str, Any]:
+    """The classes of Jazzy's message types, by name."""
+    return _store().types
 
 
 def offered_qos(topic: str, depth: int | None = None) -> list[dict[str, object]]:

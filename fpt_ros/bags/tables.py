@@ -10,6 +10,7 @@ import numpy as np
 from fpt_ros.bags import columns, numbers, parameter_text, units
 from fpt_ros.bags.bag import Bag
 from fpt_ros.bags.block import Source
+from fpt_ros.bags.chosen import Chosen
 from fpt_ros.bags.loop_series import loop_topic
 from fpt_ros.bags.numbers import Reading
 from fpt_ros.errors import BadInput
@@ -69,12 +70,9 @@ def read_tables(path: Path, topics: tuple[str, ...] = ()) -> Tables:
         BadInput: it is not a recording, or has no such topic.
     """
     bag = Bag(path)
-    wanted = {f"/{topic.lstrip('/')}" for topic in topics}
-    readings = numbers.read(bag, lambda s: not wanted or f"/{s.topic.lstrip('/')}" in wanted)
-    names = {f"/{source.topic.lstrip('/')}" for source in bag.kinds}
-    for topic in sorted(wanted - names):
-        there = ", ".join(sorted(names)) or "none"
-        raise BadInput(f"{path} has no topic '{topic}': there are {there}")
+    chosen = Chosen(topics)
+    readings = numbers.read(bag, chosen)
+    chosen.check(bag)
     known = units.plant_units(_parameters(bag))
     tables: dict[str, pd.DataFrame] = {}
     left_out: dict[str, str] = {}

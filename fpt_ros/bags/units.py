@@ -6,7 +6,7 @@ from fpt_ros.bags.columns import Column
 from fpt_ros.bags.definitions import full_name
 from fpt_ros.errors import BadInput
 from fpt_ros.parameters import Value
-from fpt_ros.plants import PLANTS, made
+from fpt_ros.plants import PLANTS, Plant, made
 
 _POSITION = {"position", "positions"}
 _RATE = {"velocity": "/s", "velocities": "/s"}
@@ -26,14 +26,28 @@ _FIELDS = {
 """As the definitions of the messages say, by the first word of the field."""
 
 
+def plant_of(parameters: Mapping[str, Mapping[str, Value]]) -> Plant | None:
+    """The plant that a recording of ours names; ``None``: it names none that is known here."""
+    values = parameters.get("plant_simulator", {})
+    try:
+        entry = PLANTS[str(values["plant"])]
+        # a recording holds no empty lists: they have no type in ROS
+        left_out = {
+            f"exact.{each.name}": each.default
+            for each in entry.parameters
+            if each.default is not None
+        }
+        return made(entry, {**left_out, **values}, "exact")
+    except (BadInput, KeyError, TypeError):
+        return None
+
+
 def plant_units(
     parameters: Mapping[str, Mapping[str, Value]],
 ) -> tuple[Mapping[str, str], Mapping[str, str]]:
     """Of position and effort, by coordinate, of the plant that a recording of ours names."""
-    values = parameters.get("plant_simulator", {})
-    try:
-        plant = made(PLANTS[str(values["plant"])], values, "exact")
-    except (BadInput, KeyError, TypeError):
+    plant = plant_of(parameters)
+    if plant is None:
         return {}, {}
     names = plant.coordinates
     return (

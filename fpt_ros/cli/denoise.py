@@ -29,7 +29,10 @@ Column = Annotated[
 ]
 Time = Annotated[
     str | None,
-    typer.Option(metavar="NAME", help="Column of times; none: rows are equally spaced."),
+    typer.Option(
+        metavar="NAME",
+        help="Column of times; none: rows are equally spaced. Of a recording: header.stamp.",
+    ),
 ]
 Topic = Annotated[str | None, typer.Option(metavar="T", help="Topic of a recording.")]
 Field = Annotated[str | None, typer.Option(metavar="F", help="Field, as in position[2].")]

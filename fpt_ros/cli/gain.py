@@ -11,8 +11,8 @@ from fpt_ros.cli.options import Json, Name, Settings, Variant, experiment_of
 
 if TYPE_CHECKING:
     from fpt_ros.experiments.experiment import Experiment
+    from fpt_ros.experiments.response_map import Point
     from fpt_ros.gain.limits import Gain
-    from fpt_ros.gain.motion import Point
 
 Out = Annotated[
     Path | None,

@@ -10,15 +10,29 @@ from fpt_ros.cli.options import Json
 Bag = Annotated[Path, typer.Argument(metavar="BAG", help="A recording, whoever made it.")]
 
 
-def info(bag: Bag, json: Json = False) -> None:
+Parameters = Annotated[
+    bool,
+    typer.Option("--parameters", help="Print the ROS parameter file of all nodes, nothing else."),
+]
+
+
+def info(bag: Bag, json: Json = False, parameters: Parameters = False) -> None:
     """What a recording holds: experiment, topics, parameters, and whether it is complete.
 
     Example: fpt info demo/adaptive
+
+    Example: fpt info demo/adaptive --parameters > tora.yaml
     """
-    from fpt_ros.bags import reader
+    from fpt_ros.bags import parameter_text, reader
     from fpt_ros.cli.output import console, print_json
+    from fpt_ros.errors import BadInput
 
     content: dict[str, Any] = dict(reader.info(bag))
+    if parameters:
+        if not content["parameters"]:
+            raise BadInput(f"{bag} holds no parameters: it is not a recording of this package")
+        print(parameter_text.to_text(content["parameters"]), end="")
+        return
     if json:
         print_json(content)
         return
@@ -26,7 +40,7 @@ def info(bag: Bag, json: Json = False) -> None:
     from rich.text import Text
 
     out = console()
-    parameters, topics = content.pop("parameters"), content.pop("topics")
+    nodes, topics = content.pop("parameters"), content.pop("topics")
     lines = {"missing": content.pop("missing"), "note": content.pop("notes")}
     table = Table(box=None, show_header=False, pad_edge=False)
     for key, value in content.items():
@@ -39,6 +53,6 @@ def info(bag: Bag, json: Json = False) -> None:
     for topic, each in topics.items():
         counts.add_row(topic, each["type"], str(each["messages"]))
     out.print(counts)
-    for node, values in parameters.items():
+    for node, values in nodes.items():
         words = ", ".join(f"{name}={value}" for name, value in values.items())
         out.print(Text(f"{node}: {words}"), soft_wrap=True)

@@ -22,6 +22,7 @@ from fpt_ros.cli.options import (
 
 if TYPE_CHECKING:
     from fpt_ros.experiments.experiment import Experiment
+    from fpt_ros.nodes.robot import Robot
 
 Composed = Annotated[bool, typer.Option("--composed", help="The five nodes in one process.")]
 Realtime = Annotated[bool, typer.Option("--realtime", help="On the wall clock, not in lockstep.")]
@@ -30,6 +31,18 @@ Split = Annotated[
     typer.Option(metavar="SIZE|TIME", help="Go on in another file, as after 100MB or 60s."),
 ]
 Namespace = Annotated[str, typer.Option(metavar="NS", help="ROS namespace of all nodes.")]
+NoPlant = Annotated[
+    bool,
+    typer.Option("--no-plant", help="Control a robot instead; until Ctrl-C, or for --duration."),
+]
+States = Annotated[
+    str,
+    typer.Option(metavar="TOPIC", help="--no-plant: where the robot tells its joint states."),
+]
+Efforts = Annotated[
+    str,
+    typer.Option(metavar="TOPIC", help="--no-plant: where its effort controller listens."),
+]
 
 
 def run(
@@ -43,11 +56,15 @@ def run(
     realtime: Realtime = False,
     namespace: Namespace = "",
     split: Split = "",
+    no_plant: NoPlant = False,
+    states: States = "joint_states",
+    efforts: Efforts = "effort_command",
     json: Json = False,
 ) -> None:
     """Run an experiment as a graph of ROS 2 nodes over DDS, a process each.
 
-    Example: fpt run tora --record /tmp/tora && fpt report /tmp/tora
+    Examples: fpt run tora --record /tmp/tora && fpt report /tmp/tora;
+    fpt run arm.yaml --no-plant --efforts /effort_controller/commands
     """
     from fpt_ros.bags.split import Split as Parsed
     from fpt_ros.cli.output import print_json, print_result
@@ -58,12 +75,13 @@ def run(
         Parsed.parse(split)
         experiment = experiment.with_values(NODE, split=split)
     _check_namespace(namespace)
+    robot = _robot(no_plant, composed, states, efforts, duration)
     if record is not None:
         check_new_directory(record)
     warn_about_gain(experiment)
     with tempfile.TemporaryDirectory(prefix="fpt_ros-") as folder:
         bag = record or Path(folder) / "recording"
-        result, failure = run_recorded(experiment, bag, composed, realtime, namespace)
+        result, failure = run_recorded(experiment, bag, composed, realtime, namespace, robot)
     if result is not None:
         print_result({**result, "bag": str(record) if record is not None else None}, json)
     elif json and failure is not None:
@@ -87,6 +105,7 @@ def run_recorded(
     composed: bool = False,
     realtime: bool = False,
     namespace: str = "",
+    robot: "Robot | None" = None,
 ) -> tuple[dict[str, Any] | None, Exception | None]:
     """Run the graph and read its recording.
 
@@ -110,7 +129,7 @@ def run_recorded(
             show(done)
 
         try:
-            graph.run(experiment, bag, composed, realtime, namespace, progress)
+            graph.run(experiment, bag, composed, realtime, namespace, progress, robot)
         except FptError as error:
             failure = error
     wall = perf_counter() - started
@@ -122,6 +141,21 @@ def run_recorded(
     if len(pace) > 1 and pace[-1][0] > pace[0][0]:
         rate = (pace[-1][1] - pace[0][1]) / (pace[-1][0] - pace[0][0])
     return {**result, "wall_time": wall, "cycles_per_second": rate, "bag": str(bag)}, failure
+
+
+def _robot(
+    no_plant: bool, composed: bool, states: str, efforts: str, duration: float | None
+) -> "Robot | None":
+    from fpt_ros.errors import BadInput
+    from fpt_ros.nodes.robot import EFFORT_COMMAND, Robot
+
+    if no_plant and composed:
+        raise BadInput("--no-plant excludes --composed, of which the plant is a part")
+    if no_plant:
+        return Robot(states, efforts, duration)
+    if (states, efforts) != ("joint_states", EFFORT_COMMAND):
+        raise BadInput("--states and --efforts are topics of a robot: they go with --no-plant")
+    return None
 
 
 def _check_namespace(namespace: str) -> None:

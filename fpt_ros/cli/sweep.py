@@ -81,7 +81,7 @@ def sweep(
     directory = out or Path(f"{asked.experiment.name}-sweep")
     started = perf_counter()
     with interrupts() as interrupted, pool(scheduler, workers) as executor:
-        resumed = open_directory(asked, directory)
+        resumed = open_directory(asked.definition, directory)
         known: list[int] = []  # runs that were there before
         with progress(title, asked.size) as bar:
 
@@ -143,10 +143,10 @@ def _print(result: dict[str, Any], title: str, binary: Path, json: bool) -> None
 
 
 @contextmanager
-def progress(what: str, total: int) -> Iterator["Progress"]:
+def progress(what: str, total: int, of: str = "runs") -> Iterator["Progress"]:
     """A bar on standard error with rate and time left; on a pipe a line every now and then."""
     if not sys.stderr.isatty():
-        yield _lines(what, total)
+        yield _lines(what, total, of)
         return
     from rich.console import Console
     from rich.progress import (
@@ -162,7 +162,7 @@ def progress(what: str, total: int) -> Iterator["Progress"]:
         TextColumn("{task.description}"),
         BarColumn(),
         MofNCompleteColumn(),
-        TextColumn("runs, {task.fields[lost]} not complete"),
+        TextColumn(of + ", {task.fields[lost]} not complete"),
         TimeElapsedColumn(),
         TimeRemainingColumn(),
     )
@@ -171,10 +171,10 @@ def progress(what: str, total: int) -> Iterator["Progress"]:
         yield lambda done, lost: bar.update(task, completed=done, lost=lost)
 
 
-def _lines(what: str, total: int) -> "Progress":
+def _lines(what: str, total: int, of: str) -> "Progress":
     started = last = perf_counter()
     first: int | None = None
-    print(f"{what}: {total} runs", file=sys.stderr)
+    print(f"{what}: {total} {of}", file=sys.stderr)
 
     def tell(done: int, lost: int) -> None:
         nonlocal last, first
@@ -186,7 +186,7 @@ def _lines(what: str, total: int) -> "Progress":
         rate = (done - first) / (now - started)
         left = (total - done) / rate
         print(
-            f"{what}: {done} of {total} runs, {lost} not complete, {rate:.1f} runs/s, "
+            f"{what}: {done} of {total} {of}, {lost} not complete, {rate:.1f} {of}/s, "
             f"{left:.0f} s left",
             file=sys.stderr,
             flush=True,

@@ -12,26 +12,14 @@ smallest eigenvalue it is stable; an m of the true size is not where joints are 
 import math
 
 from fpt_ros.compensators import Compensator, Observed
-from fpt_ros.errors import BadInput
+from fpt_ros.compensators.inertia import PARAMETERS, inertias
 from fpt_ros.laws import MutableVector, Vector
-from fpt_ros.parameters import Parameter, Values, number, numbers
-
-PARAMETERS = (
-    Parameter("inertia", "m, one a coordinate", [], above=0.0),
-    Parameter("factor", "of all of them", 1.0, above=0.0),
-)
+from fpt_ros.parameters import Values
 
 
 def prepare(values: Values, n: int, dt: float) -> tuple[float, ...]:
-    """Constants: m times the factor, n of them.
-
-    Raises:
-        BadInput: of another number.
-    """
-    given, factor = numbers(values, "compensator.inertia"), number(values, "compensator.factor")
-    if len(given) != n:
-        raise BadInput(f"fpt_deformer.compensator.inertia: {len(given)} given, {n} needed")
-    return tuple(factor * m for m in given)
+    """Constants: m times the factor, n of them."""
+    return inertias(values, n)
 
 
 def compensate(

@@ -1,9 +1,9 @@
-"""What stage 5 computes: the deformed response, the model's effort for it, and what is added."""
+"""What stage 5 learns: the deformed response, and the model's effort for it."""
 
 import math
 from typing import NamedTuple
 
-from fpt_ros.compensators import Compensate, Observed
+from fpt_ros.cycle.limits import LimitConstants, LimitWork
 from fpt_ros.cycle.rows import CommandRow, Estimated, Tuned, Wanted
 from fpt_ros.cycle.tuned import A_COEFFICIENT, A_WEIGHT, TunedPlaces
 from fpt_ros.laws import Indices, Matrix, MutableVector, Vector, helper
@@ -36,12 +36,15 @@ class DeformerConstants(NamedTuple):
     adaptive_from: float
     compensator: Vector
     compensates: int
+    limits: LimitConstants
 
 
 class DeformerMemory(NamedTuple):
     """The number of cycles, and rings of the last d deformed and observed responses (d x n).
 
-    For a compensator: its memory, and motion and effort of the cycle before (n each).
+    For a compensator and for limits: motion and effort of the cycle before (n each). For a
+    compensator: its memory. For limits: ring of the last efforts sent; r of the last cycle that was
+    not limited; the effort from which the controller takes over (n each); how long ago it did [s].
     """
 
     cycles: MutableVector
@@ -51,6 +54,10 @@ class DeformerMemory(NamedTuple):
     position: MutableVector
     velocity: MutableVector
     effort: MutableVector
+    sent: Matrix
+    unlimited: MutableVector
+    start: MutableVector
+    engaged: MutableVector
 
 
 class DeformerWork(NamedTuple):
@@ -68,6 +75,7 @@ class DeformerWork(NamedTuple):
     explained: MutableVector
     wanted: MutableVector
     zeros: MutableVector
+    limits: LimitWork
 
 
 @helper
@@ -102,7 +110,8 @@ def deform_response(
     """r_k = G(r_{k-d}, response to r_{k-d} - desired_k), and the model's effort for it.
 
     A coordinate that is controlled anew gets the desired response itself. Where the filter shows r
-    (``estimate.deformed`` is not NaN), the step is made from that instead of from r_{k-d}.
+    (``estimate.deformed`` is not NaN), the step is made from that instead of from r_{k-d}. Where
+    the response is not known (NaN, a lost sample), r stays.
     """
     past, seen, delay, hold = memory.deformed, memory.observed, constants.delay, constants.hold
     r, h, f, target, combined = work.r, work.h, work.f, work.out, work.combined
@@ -129,8 +138,9 @@ def deform_response(
         at, before = where[i], past[turn, where[i]]
         r[i], h[i], f[i] = wanted[i], 0.0, wanted[i]
         if adaptive and not math.isnan(before) and not math.isnan(wanted[i]):
-            r[i] = before if math.isnan(shown[at]) else shown[at]
-            if not held:
+            known = not math.isnan(seen[then, at])
+            r[i] = before if math.isnan(shown[at]) or not known else shown[at]
+            if known and not held:
                 f[i] = seen[then, at]
                 h[i] = weights[i] * (f[i] - wanted[i])
         if not math.isnan(wanted[i]):
@@ -149,68 +159,3 @@ def deform_response(
         past[turn, i] = out_r[i]
     q, v = estimate.positions, estimate.velocities
     effort(constants.coefficients, q, v, out_r, combined, out.effort)
-
-
-@helper
-def compensate_effort(
-    compensate: Compensate,
-    effort: Effort,
-    constants: DeformerConstants,
-    memory: DeformerMemory,
-    work: DeformerWork,
-    dt: float,
-    estimate: Estimated,
-    desired: Wanted,
-    out: CommandRow,
-) -> None:
-    """Add what the compensator gives to the model's effort."""
-    q, v, response = estimate.positions, estimate.velocities, estimate.accelerations
-    explained, wanted = work.explained, work.wanted
-    n, where = len(q), constants.where
-    for i in range(n):
-        wanted[i], explained[i] = math.nan, math.nan
-    for i in range(len(where)):
-        wanted[where[i]] = desired.accelerations[i]
-    if int(memory.cycles[0]) > 1:
-        effort(
-            constants.coefficients,
-            memory.position,
-            memory.velocity,
-            response,
-            work.zeros,
-            explained,
-        )
-    observed = Observed(
-        q,
-        v,
-        response,
-        explained,
-        memory.effort,
-        wanted,
-        out.accelerations,
-        work.combined,
-    )
-    compensate(constants.compensator, memory.compensator, dt, observed, out.effort)
-    for i in range(n):
-        memory.position[i], memory.velocity[i], memory.effort[i] = q[i], v[i], out.effort[i]
-
-
-@helper
-def command_cycle(
-    deform: Deform,
-    effort: Effort,
-    compensate: Compensate,
-    constants: DeformerConstants,
-    memory: DeformerMemory,
-    work: DeformerWork,
-    t: float,
-    dt: float,
-    estimate: Estimated,
-    desired: Wanted,
-    out: CommandRow,
-) -> None:
-    """All of the stage at t [s], dt [s] after the cycle before."""
-    adaptive = 1 if constants.adapts and t >= constants.adaptive_from else 0
-    deform_response(deform, effort, constants, memory, work, adaptive, estimate, desired, out)
-    if constants.compensates:
-        compensate_effort(compensate, effort, constants, memory, work, dt, estimate, desired, out)

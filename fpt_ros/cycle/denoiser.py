@@ -3,15 +3,18 @@
 import math
 from typing import NamedTuple
 
+from fpt_ros.cycle import healing
+from fpt_ros.cycle.healing import HEALING, HealingConstants, heal, keep_estimate
 from fpt_ros.cycle.joints import Entrance
 from fpt_ros.cycle.records import Layout
 from fpt_ros.cycle.rows import Commanded, Measured, StateEstimateRow, no_command
-from fpt_ros.cycle.stage import CYCLE_TIME, JOINTS, REALTIME, Input, Stage
+from fpt_ros.cycle.stage import CYCLE_TIME, JOINTS, REALTIME, ROBOT, Input, Stage
 from fpt_ros.denoising.streaming import FILTERS, ORDER, Update
-from fpt_ros.laws import MutableVector, Vector, helper
-from fpt_ros.messages.frames import Command, JointStates, StateEstimate
-from fpt_ros.messages.topics import COMMAND, JOINT_STATES, STATE_ESTIMATE
-from fpt_ros.parameters import Parameter, Values, flag, number, word, words
+from fpt_ros.errors import BadInput
+from fpt_ros.laws import Matrix, MutableVector, Vector, helper
+from fpt_ros.messages.frames import Command, Frame, JointStates, StateEstimate
+from fpt_ros.messages.topics import COMMAND, JOINT_STATES, STATE_ESTIMATE, Topic
+from fpt_ros.parameters import Parameter, Values, flag, integer, number, word, words
 
 METHOD = Parameter(
     "method",
@@ -33,26 +36,33 @@ SYNCHRONISED = Parameter(
 
 
 class DenoiserConstants(NamedTuple):
-    """Fixed: the filter's constants, and whether a second filter is shown r."""
+    """Fixed: the filter's constants, whether a second filter is shown r, how samples are healed."""
 
     filter: Vector
     synchronised: int
+    healing: HealingConstants
 
 
 class DenoiserMemory(NamedTuple):
-    """State of the filter; synchronised: of a second one, position and velocity that it sees."""
+    """State of the filter; synchronised: of a second one, position and velocity that it sees.
+
+    ``healing``: see :mod:`fpt_ros.cycle.healing`.
+    """
 
     filter: MutableVector
     second: MutableVector
     position: MutableVector
     velocity: MutableVector
+    healing: Matrix
 
 
 class DenoiserWork(NamedTuple):
-    """What nobody reads: the second filter's position and velocity, n each."""
+    """The second filter's position and velocity, which nobody reads, and the healed sample's."""
 
     position: MutableVector
     velocity: MutableVector
+    healed_position: MutableVector
+    healed_velocity: MutableVector
 
 
 @helper
@@ -79,6 +89,9 @@ def filter_motion(
 ) -> None:
     """The filtered motion of a later cycle, ``command`` being that of the cycle before."""
     q, v, deformed = measured.position, measured.velocity, out.deformed
+    if constants.healing.heals:
+        q, v = work.healed_position, work.healed_velocity
+        heal(constants.healing, memory.healing, dt, measured.position, measured.velocity, q, v)
     update(
         constants.filter,
         memory.filter,
@@ -89,6 +102,8 @@ def filter_motion(
         out.velocities,
         out.accelerations,
     )
+    if constants.healing.heals:
+        keep_estimate(memory.healing, out.positions, out.velocities, out.accelerations)
     for i in range(len(q)):
         deformed[i] = math.nan
     if constants.synchronised:
@@ -141,7 +156,17 @@ class Denoiser(Stage):
         """Those of the stage and of the filter."""
         method = str(given.get("method", METHOD.default))
         own = FILTERS[method].parameters
-        return (METHOD, ORDER, SYNCHRONISED, *own, REALTIME, CYCLE_TIME, JOINTS)
+        return (
+            METHOD,
+            ORDER,
+            SYNCHRONISED,
+            *healing.PARAMETERS,
+            *own,
+            REALTIME,
+            ROBOT,
+            CYCLE_TIME,
+            JOINTS,
+        )
 
     @property
     def inputs(self) -> tuple[Input, ...]:
@@ -149,8 +174,30 @@ class Denoiser(Stage):
         command = (Input(COMMAND, lag=1),) if self.synchronised else ()
         return (Input(JOINT_STATES), *command)
 
+    def admit(self, topic: Topic, frame: Frame) -> Frame:
+        """As of any stage; and a measurement without velocity needs a filter that finds it.
+
+        Raises:
+            BadInput: the frame cannot be used.
+        """
+        frame = super().admit(topic, frame)
+        if isinstance(frame, JointStates) and self._needs_velocity:
+            heals = word(self.values, HEALING.name) != "none"
+            motions = zip(frame.names, frame.position, frame.velocity, strict=True)
+            for name, position, velocity in motions:
+                if math.isnan(velocity) and not (heals and math.isnan(position)):
+                    raise BadInput(
+                        f"{self.name}, joint_states: there is no velocity of {name}, and "
+                        f"{self.name}.method none takes what is measured: finite_difference finds "
+                        "it, or another filter"
+                    )
+        return frame
+
     def _prepare(self) -> None:
         values = self.values
+        self._needs_velocity = (
+            word(values, "method") == METHOD.default and integer(values, "order") == 2
+        )
         self.filter = FILTERS[word(values, "method")]
         self.synchronised = flag(values, "synchronised")
         if not self._n:
@@ -168,7 +215,8 @@ class Denoiser(Stage):
         if not n or dt == 0.0:
             return
         constants = list(self.filter.prepare(self.values, n, dt))
-        self.constants = DenoiserConstants(constants, int(self.synchronised))
+        heals = healing.constants_of(self.values)
+        self.constants = DenoiserConstants(constants, int(self.synchronised), heals)
         size, second = self.filter.state_size(constants, n), int(self.synchronised)
         layout = Layout(
             DenoiserMemory,
@@ -176,9 +224,10 @@ class Denoiser(Stage):
             second=second * size,
             position=second * n,
             velocity=second * n,
+            healing=(healing.ROWS * heals.heals, n),
         )
         self.memory, _ = self._remember(layout)
-        self.work = DenoiserWork([0.0] * n, [0.0] * n)
+        self.work = DenoiserWork(*[[0.0] * n for _ in range(4)])
 
     def begin(self, first: JointStates, dt: float = 0.0) -> None:
         """Take the first sample; ``dt`` [s] where no parameter tells it."""
@@ -187,6 +236,8 @@ class Denoiser(Stage):
             self._size(len(q), self._dt or dt)
         filter_constants = self.constants.filter
         self.filter.start(filter_constants, self.memory.filter, q, v)
+        if self.constants.healing.heals:
+            healing.start(self.memory.healing, q, v)
         if self.synchronised:
             at_rest = [0.0] * len(q)
             for i, x in enumerate(q):

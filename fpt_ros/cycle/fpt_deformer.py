@@ -3,24 +3,21 @@
 import math
 
 from fpt_ros.compensators import COMPENSATORS
-from fpt_ros.cycle.approximate_model import model_of, model_parameters
-from fpt_ros.cycle.deformation import (
-    DeformerConstants,
-    DeformerMemory,
-    DeformerWork,
-    apply_tuning,
-    command_cycle,
-)
-from fpt_ros.cycle.denoiser import SYNCHRONISED
+from fpt_ros.cycle.acting import HELD, forget
+from fpt_ros.cycle.approximate_model import model_of
+from fpt_ros.cycle.commanding import command_cycle
+from fpt_ros.cycle.deformation import DeformerConstants, DeformerMemory, DeformerWork, apply_tuning
+from fpt_ros.cycle.deformer_parameters import COMPENSATOR, TRANSFORMATION, deformer_parameters
 from fpt_ros.cycle.joints import Entrance
+from fpt_ros.cycle.limits import limit_work, limits_of
 from fpt_ros.cycle.records import Layout
-from fpt_ros.cycle.rows import CommandRow
-from fpt_ros.cycle.stage import CYCLE_TIME, REALTIME, Input, Stage, indices
+from fpt_ros.cycle.rows import CommandRow, not_measured
+from fpt_ros.cycle.stage import CYCLE_TIME, Input, Stage, indices
 from fpt_ros.cycle.tuned import CONTROLLED, NOTHING, tuned_by
 from fpt_ros.errors import BadInput, Diverged
 from fpt_ros.laws import NOT_CONTROLLED, Vector
-from fpt_ros.messages.frames import Command, Desired, Names, StateEstimate, Tuning
-from fpt_ros.messages.topics import COMMAND, DESIRED, STATE_ESTIMATE
+from fpt_ros.messages.frames import Command, Desired, JointStates, Names, StateEstimate, Tuning
+from fpt_ros.messages.topics import COMMAND, DESIRED, JOINT_STATES, STATE_ESTIMATE
 from fpt_ros.messages.topics import TUNING as TUNING_TOPIC
 from fpt_ros.parameters import (
     Parameter,
@@ -29,68 +26,10 @@ from fpt_ros.parameters import (
     integer,
     number,
     numbers,
-    prefixed,
     word,
     words,
 )
 from fpt_ros.transformations import TRANSFORMATIONS
-
-TRANSFORMATION = Parameter(
-    "transformation",
-    "fixed point transformation, by its name; none: not adaptive",
-    "none",
-    live=False,
-)
-
-COMPENSATOR = Parameter(
-    "compensator.kind",
-    "what adds to the model's effort, by its name; none: nothing",
-    "none",
-    live=False,
-)
-
-PARAMETERS = (
-    TRANSFORMATION,
-    COMPENSATOR,
-    Parameter("adaptive_from", "time at which the deformation starts", 0.0, unit="s", minimum=0.0),
-    Parameter(
-        "learning_delay",
-        "cycles between the deformed response and the one that it is corrected to",
-        1,
-        minimum=1,
-        maximum=1000,
-        live=False,
-    ),
-    Parameter(
-        "learning_hold",
-        "correct only once every so many cycles, and hold between",
-        1,
-        minimum=1,
-        maximum=1000,
-        live=False,
-    ),
-    Parameter(
-        "sensor_delay",
-        "cycles by which the response observed is late, beside the learning delay",
-        0,
-        minimum=0,
-        maximum=1000,
-        live=False,
-    ),
-    Parameter("weights", "of the response errors, per controlled coordinate; empty: ones", []),
-    Parameter(
-        "initial_response",
-        "deformed response of the first cycle; empty: the desired one",
-        [],
-        live=False,
-    ),
-    SYNCHRONISED,
-    Parameter("await_tuning", "a tuner is in the loop: wait for it", False, live=False),
-    Parameter("effort_command", "publish the efforts for a ros2_control controller", False),
-    REALTIME,
-    CYCLE_TIME,
-    CONTROLLED,
-)
 
 
 class FptDeformer(Stage):
@@ -105,20 +44,16 @@ class FptDeformer(Stage):
     @classmethod
     def parameters(cls, given: Values) -> tuple[Parameter, ...]:
         """Those of the stage, of the transformation, of the compensator and of the model."""
-        transformation = str(given.get(TRANSFORMATION.name, TRANSFORMATION.default))
-        compensator = str(given.get(COMPENSATOR.name, COMPENSATOR.default))
-        return (
-            *PARAMETERS,
-            *TRANSFORMATIONS[transformation].parameters,
-            *prefixed("compensator", COMPENSATORS[compensator].parameters),
-            *model_parameters(given, live=given.get("await_tuning") is not True),
-        )
+        return deformer_parameters(given)
 
     @property
     def inputs(self) -> tuple[Input, ...]:
-        """Estimate and desired response of the cycle; tuning where a tuner is in the loop."""
+        """Estimate and desired response of the cycle; the measurement where it is asked which
+        effort acted; tuning where a tuner is in the loop.
+        """
+        measured = (Input(JOINT_STATES, optional=True),) if self.limits.remembers else ()
         tuning = (Input(TUNING_TOPIC),) if flag(self.values, "await_tuning") else ()
-        return (Input(STATE_ESTIMATE), Input(DESIRED), *tuning)
+        return (Input(STATE_ESTIMATE), Input(DESIRED), *measured, *tuning)
 
     def _prepare(self) -> None:
         values = self.values
@@ -139,7 +74,9 @@ class FptDeformer(Stage):
         if self.compensator.acts and not dt:
             raise BadInput(f"{self.name}.cycle_time is missing: a compensator has to know it")
         self._compensator = list(self.compensator.prepare(values, n, dt))
-        acts = int(self.compensator.acts)
+        self.limits = limits_of(values, self.model.coordinates, self.name)
+        limits = self.limits.remembers
+        acts = int(self.compensator.acts or limits)
         layout = Layout(
             DeformerMemory,
             cycles=1,
@@ -149,6 +86,10 @@ class FptDeformer(Stage):
             position=n * acts,
             velocity=n * acts,
             effort=n * acts,
+            sent=(HELD * limits, n),
+            unlimited=n * limits,
+            start=n * limits,
+            engaged=limits,
         )
         self.memory, fresh = self._remember(layout)
         if fresh:
@@ -160,7 +101,12 @@ class FptDeformer(Stage):
         self._tuning_names: Names = ()
         self._desired = Entrance(f"{self.name}, desired", controlled, partial=True)
         self._estimated = Entrance(f"{self.name}, state_estimate", self.model.coordinates)
-        self.entrances = {STATE_ESTIMATE.name: self._estimated, DESIRED.name: self._desired}
+        self._measured = Entrance(f"{self.name}, joint_states", self.model.coordinates)
+        self.entrances = {
+            STATE_ESTIMATE.name: self._estimated,
+            DESIRED.name: self._desired,
+            JOINT_STATES.name: self._measured,
+        }
         if controlled and set(controlled) <= set(self.model.controlled):
             self.begin(controlled)  # otherwise the first cycle, or the check of the fit, refuses
 
@@ -188,10 +134,12 @@ class FptDeformer(Stage):
             adaptive_from=number(values, "adaptive_from"),
             compensator=self._compensator,
             compensates=int(self.compensator.acts),
+            limits=self.limits,
         )
-        of_c = [[0.0] * c for _ in range(4)]
-        of_n = [[0.0] * n for _ in range(4)]
-        self.work = DeformerWork(*of_c, *of_n)
+        r, h, f, target = ([0.0] * c for _ in range(4))
+        combined, explained, wanted, zeros = ([0.0] * n for _ in range(4))
+        limits = limit_work(n, c)
+        self.work = DeformerWork(r, h, f, target, combined, explained, wanted, zeros, limits)
 
     @property
     def gain(self) -> float:
@@ -222,9 +170,12 @@ class FptDeformer(Stage):
         return self.constants
 
     def step(
-        self, estimate: StateEstimate, desired: Desired, tuning: Tuning | None = None
+        self, estimate: StateEstimate, desired: Desired, *rest: JointStates | Tuning | None
     ) -> Command:
         """Deformed response r_k and the model's effort.
+
+        ``rest``: the measurement where limits are remembered, and the tuner's message where it is
+        in the loop.
 
         Raises:
             Diverged: the transformation or the model left its domain.
@@ -232,8 +183,12 @@ class FptDeformer(Stage):
         estimate, desired = self._estimated.take(estimate), self._desired.take(desired)
         if not self.controlled:
             self.begin(desired.names)
-        if tuning is not None:
-            apply_tuning(self.tuned_by(tuning.names), tuning)
+        measured = not_measured(self.model.coordinates)
+        for each in rest:
+            if isinstance(each, Tuning):
+                apply_tuning(self.tuned_by(each.names), each)
+            elif each is not None:
+                measured = self._measured.take(each)
         stamp, model, n = estimate.stamp, self.model, len(self.model.coordinates)
         t, dt = self._advance_clock(stamp)
         out = CommandRow([0.0] * n, [0.0] * n)
@@ -249,6 +204,7 @@ class FptDeformer(Stage):
                 dt,
                 estimate,
                 desired,
+                measured,
                 out,
             )
         except (ArithmeticError, ValueError) as error:
@@ -279,7 +235,22 @@ class FptDeformer(Stage):
 
     def trouble(self, q: Vector) -> str:
         """What is wrong with the approximate model at q; empty: nothing that it knows of."""
+        lost = [name for name, x in zip(self.coordinates, q, strict=True) if math.isnan(x)]
+        if lost:
+            return (
+                f"the position of {', '.join(lost)} is not known, a sample was lost: "
+                "denoiser.healing.kind=predict heals it"
+            )
         return self.model.trouble(self.coefficients, q) if self.model.trouble is not None else ""
+
+    def forget(self) -> None:
+        """What was learned does not count any more: the next cycle begins anew."""
+        forget(self.memory, len(self.model.coordinates))
+
+    def safe_command(self, stamp: int) -> Command:
+        """What is commanded where nothing is measured any more, or in a stop."""
+        n = len(self.model.coordinates)
+        return Command(stamp, self.model.coordinates, [math.nan] * n, self.limits.safe)
 
     @property
     def coordinates(self) -> Names:

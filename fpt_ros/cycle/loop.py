@@ -7,12 +7,13 @@ import math
 from typing import NamedTuple
 
 from fpt_ros.compensators import Compensate
+from fpt_ros.cycle.chains import Sense
+from fpt_ros.cycle.commanding import command_cycle
 from fpt_ros.cycle.deformation import (
     DeformerConstants,
     DeformerMemory,
     DeformerWork,
     apply_tuning,
-    command_cycle,
 )
 from fpt_ros.cycle.denoiser import (
     DenoiserConstants,
@@ -116,6 +117,7 @@ def run(
     deform: Deform,
     effort: Effort,
     compensate: Compensate,
+    sense: Sense,
     step: Step,
     first: int,
     last: int,
@@ -152,7 +154,7 @@ def run(
             rows.desired.combined_error[i],
         )
         command = CommandRow(rows.command.accelerations[i], rows.command.effort[i])
-        measure(constants.plant, memory.plant, k, rows.noise[i], measured)
+        measure(sense, constants.plant, memory.plant, k, rows.noise[i], measured)
         if k == 0:
             show_first(measured, estimate)
         else:
@@ -206,6 +208,7 @@ def run(
             elapsed,
             estimate,
             desired,
+            measured,
             command,
         )
         for j in range(len(where)):

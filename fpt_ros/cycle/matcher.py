@@ -6,13 +6,16 @@ from fpt_ros.cycle.stage import Input
 from fpt_ros.errors import RunFailed
 from fpt_ros.messages.frames import SECOND, Frame
 
+RECENT = 16
+"""Frames of an input that are kept in real time: answers may be late by as many cycles."""
+
 
 class Matcher:
-    """Keeps the latest frame of each input, and tells when those of a cycle are complete.
+    """Keeps the latest frames of each input, and tells when those of a cycle are complete.
 
     In lockstep a cycle is complete when all inputs carry its stamp (``lag`` 1: that of the cycle
-    acted on last). In real time the newest cycle counts, and what has a lag may be absent. No stamp
-    is acted on twice.
+    acted on last). In real time the newest complete cycle counts, and what has a lag or is optional
+    may be absent. No stamp is acted on twice.
 
     Attributes:
         acted: stamp of the cycle acted on last [ns], -1 before the first.
@@ -26,8 +29,9 @@ class Matcher:
         self._cycle_time = cycle_time
         self._realtime = realtime
         self._lags = tuple(each.lag for each in inputs)
-        self._leading = self._lags.index(0) if 0 in self._lags else 0
+        self._waited_for = [i for i, each in enumerate(inputs) if not (each.lag or each.optional)]
         self._latest: list[Frame | None] = [None] * len(self._lags)
+        self._recent: list[dict[int, Frame]] = [{} for _ in inputs]
 
     def take(self, index: int, frame: Frame) -> list[Frame | None] | None:
         """The frames of a cycle, one per input, if this one completes it; else ``None``.
@@ -35,10 +39,12 @@ class Matcher:
         Raises:
             RunFailed: the cycle is of a run in lockstep that was not seen from its beginning.
         """
-        if frame.stamp < self.acted and not self._realtime:
+        if self._realtime:
+            return self._take_newest(index, frame)
+        if frame.stamp < self.acted:
             return None  # of a run that has begun later: it must not take the place of ours
         self._latest[index] = frame
-        leading = self._latest[self._leading]
+        leading = self._latest[self._waited_for[0]]
         if leading is None or leading.stamp <= self.acted:
             return None
         stamp, last = leading.stamp, self.acted
@@ -47,16 +53,33 @@ class Matcher:
             wanted = last if lag else stamp
             if latest is not None and latest.stamp == wanted:
                 complete.append(latest)
-            elif lag and (last < 0 or self._realtime):
+            elif lag and last < 0:
                 complete.append(None)
             else:
                 return None
         due = last + self._cycle_time if last >= 0 else 0
         unknown = last >= 0 and not self._cycle_time
-        if not (self._realtime or unknown) and stamp != due:
+        if not unknown and stamp != due:
             raise under_way(stamp)
         self.acted = stamp
         return complete
+
+    def _take_newest(self, index: int, frame: Frame) -> list[Frame | None] | None:
+        """In real time: a node that comes late for one cycle must not come late for all."""
+        recent = self._recent[index]
+        recent[frame.stamp] = frame
+        if len(recent) > RECENT:
+            del recent[min(recent)]
+        stamp, last = frame.stamp, self.acted
+        if stamp <= last or index not in self._waited_for:
+            return None
+        if not all(stamp in self._recent[i] for i in self._waited_for):
+            return None
+        self.acted = stamp
+        return [
+            each.get(last if lag else stamp)
+            for each, lag in zip(self._recent, self._lags, strict=True)
+        ]
 
 
 def under_way(stamp: int) -> RunFailed:

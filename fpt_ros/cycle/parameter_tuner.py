@@ -86,6 +86,7 @@ class ParameterTuner(Stage):
         self.law = TUNING_LAWS[method]
         self.regressor: Regressor = no_regressor
         self._start: list[float] = []
+        self._model: list[float] = []
         self._coefficients: Names = ()
         self.rows = 0
         if self.law.tunes == COEFFICIENTS:
@@ -97,6 +98,7 @@ class ParameterTuner(Stage):
                 )
             self.regressor, self.rows = model.regressor, model.rows
             self._coefficients = model.coefficient_names
+            self._model = coefficients
             self._start = coefficients[: len(self._coefficients)]
         joints = tuple(words(values, "joints"))
         controlled = tuple(words(values, CONTROLLED.name))
@@ -131,6 +133,7 @@ class ParameterTuner(Stage):
         constants = list(law.prepare(self.values))
         self.constants = TunerConstants(
             law=constants,
+            model=self._model,
             where=where,
             reference=int(law.reference),
             guards=int(flag(self.values, "precursor_guard")),

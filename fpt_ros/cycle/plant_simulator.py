@@ -10,15 +10,17 @@ from fpt_ros.cycle.motion import (
     PlantWork,
     Step,
     by_itself,
-    explicit_euler,
+    integrated,
     measure,
 )
 from fpt_ros.cycle.noise import Noise
 from fpt_ros.cycle.records import Layout
 from fpt_ros.cycle.rows import JointStatesRow
 from fpt_ros.cycle.stage import REALTIME, Input, Stage
+from fpt_ros.cycle.suffered import SUFFERED, Suffered
 from fpt_ros.disturbances import DISTURBANCES
 from fpt_ros.errors import BadInput, Diverged
+from fpt_ros.integrators import INTEGRATORS
 from fpt_ros.laws import Vector
 from fpt_ros.messages.frames import SECOND, Command, JointStates, Names
 from fpt_ros.messages.topics import COMMAND, JOINT_STATES
@@ -34,12 +36,19 @@ from fpt_ros.parameters import (
 )
 from fpt_ros.plants import PLANTS, made
 
+EULER = "explicit_euler"
+
+INTEGRATOR = Parameter(
+    "integrator.kind", "how the plant is integrated, by its registered name", EULER, live=False
+)
+
 STRUCTURE = (
     Parameter("plant", "exact dynamics, by its registered name", kind="str", live=False),
     Parameter("dt", "control cycle, whole nanoseconds", unit="s", above=0.0, live=False),
     Parameter("duration", "length of the run", unit="s", above=0.0, live=False),
     Parameter("seed", "random seed of the measurement noise", 0, minimum=0, live=False),
-    Parameter("substeps", "Euler steps in a cycle", 1, minimum=1, maximum=1000, live=False),
+    INTEGRATOR,
+    Parameter("substeps", "integration steps in a cycle", 1, minimum=1, maximum=1000, live=False),
     Parameter("initial_position", "in the order of the coordinates; empty: zero", [], live=False),
     Parameter("initial_velocity", "in the order of the coordinates; empty: zero", [], live=False),
     Parameter("disturbance.kind", "shape of the external force, by its name", "none", live=False),
@@ -57,6 +66,7 @@ STRUCTURE = (
     ),
     Parameter("noise.position", "standard deviation of the position noise", 0.0, minimum=0.0),
     Parameter("noise.velocity", "standard deviation of the velocity noise", 0.0, minimum=0.0),
+    *SUFFERED,
     Parameter("limit.acceleration", "beyond it the run has diverged", 1e9, above=0.0, live=False),
     Parameter("limit.position", "one per coordinate; empty: none", [], above=0.0, live=False),
     Parameter("safe_effort", "what acts when the command is too old", 0.0),
@@ -72,7 +82,7 @@ LOST = "control is lost: fpt gain shows which fpt_deformer.A converges, and of w
 class PlantSimulator(Stage):
     """The exact plant, with the force held over the cycle. State: :class:`PlantMemory`.
 
-    A plant that gives its response is integrated by explicit Euler; others integrate themselves.
+    A plant that gives its response is integrated; others integrate themselves.
     """
 
     name = "plant_simulator"
@@ -87,9 +97,12 @@ class PlantSimulator(Stage):
         if not isinstance(plant, str):
             return STRUCTURE
         kind = str(given.get("disturbance.kind", "none"))
+        integrator = str(given.get(INTEGRATOR.name, EULER))
         return (
             *STRUCTURE,
+            *prefixed("integrator", INTEGRATORS[integrator].parameters),
             *prefixed("disturbance", DISTURBANCES[kind].parameters),
+            *Suffered.parameters(given),
             *prefixed("exact", PLANTS[plant].parameters),
         )
 
@@ -114,6 +127,9 @@ class PlantSimulator(Stage):
         self.disturbance = DISTURBANCES[word(values, "disturbance.kind")]
         where = word(values, "disturbance.coordinate") or plant.coordinates[0]
         late = integer(values, "measurement_delay")
+        self.integrator = INTEGRATORS[word(values, INTEGRATOR.name)]
+        self.suffered = suffered = Suffered(values, plant.coordinates, seed)
+        self.sense = suffered.sense
         self.constants = PlantConstants(
             coefficients=self.coefficients,
             disturbance=list(self.disturbance.prepare(values, seed, self.cycles)),
@@ -127,11 +143,17 @@ class PlantSimulator(Stage):
             disturbed=self._position_of(where, "disturbance.coordinate"),
             velocity_measured=int(word(values, "measured") == "all"),
             late=late,
+            dt=self.dt,
+            integrator=list(self.integrator.prepare(values)),
+            sensors=suffered.sensor_constants,
+            sensors_at=suffered.sensors_at,
+            actuators=suffered.actuator_constants,
+            actuators_at=suffered.actuators_at,
         )
         if plant.set_step is not None:
             plant.set_step(self.constants.h)
         self.timeout = round(number(values, "command_timeout") * SECOND)
-        self.law = self._law()
+        self.law = self._law(suffered)
         self.noise = Noise(seed, 2 * n)
         self._commanded = Entrance(f"{self.name}, command", plant.coordinates)
         self.entrances = {COMMAND.name: self._commanded}
@@ -143,12 +165,16 @@ class PlantSimulator(Stage):
             disturbance=self.disturbance.state,
             own=plant.state,
             past=(late + 1 if late else 0, 2 * n),
+            sensors=suffered.sensor_states,
+            actuators=suffered.actuator_states,
         )
         self.memory, fresh = self._remember(layout)
-        q, v, acting, external, response = ([0.0] * n for _ in range(5))
-        self.work = PlantWork(q, v, acting, external, response, [0.0])
+        q, v, driven, acting, external, response = ([0.0] * n for _ in range(6))
+        stages = [0.0] * (self.integrator.vectors * n)
+        self.work = PlantWork(q, v, driven, acting, external, response, [0.0], stages)
         if fresh:
             self._start(n, late)
+            suffered.start(self.memory)
 
     def _start(self, n: int, late: int) -> None:
         """The initial motion, in the past as well."""
@@ -163,14 +189,23 @@ class PlantSimulator(Stage):
         if self.plant.start is not None:
             self.plant.start(self.coefficients, memory.own, start[:n], start[n:])
 
-    def _law(self) -> Step:
+    def _law(self, suffered: Suffered) -> Step:
         """The plant's motion over one cycle, as a law."""
+        name, force, kind = (
+            word(self.values, "plant"),
+            self.disturbance.force,
+            word(self.values, INTEGRATOR.name),
+        )
         if self.plant.advance is not None:
-            return by_itself(self.plant.advance, self.disturbance.force)
+            if kind != EULER:
+                raise BadInput(
+                    f"{self.name}.{INTEGRATOR.name}: {kind} given, but the plant {name} integrates "
+                    "itself: leave it out"
+                )
+            return by_itself(self.plant.advance, force, suffered.drive)
         if self.plant.response is None:
-            name = word(self.values, "plant")
             raise BadInput(f"{self.name}.plant: {name} has neither a response nor advance")
-        return explicit_euler(self.plant.response, self.disturbance.force)
+        return integrated(self.integrator.over(self.plant.response), force, suffered.drive)
 
     @property
     def coordinates(self) -> Names:
@@ -202,7 +237,7 @@ class PlantSimulator(Stage):
         n = len(self.coordinates)
         out = JointStatesRow([0.0] * n, [0.0] * n, [0.0] * n)
         noise: Vector = self.noise.of(cycle) if self.noisy else ()
-        measure(self.constants, self.memory, cycle, noise, out)
+        measure(self.sense, self.constants, self.memory, cycle, noise, out)
         return JointStates(stamp, self.coordinates, *out)
 
     def safe_command(self, stamp: int) -> Command:

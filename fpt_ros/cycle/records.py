@@ -18,7 +18,7 @@ Example::
 
 from array import array
 from math import prod
-from typing import TYPE_CHECKING, Any, Generic, TypeVar, Union, cast
+from typing import TYPE_CHECKING, Any, Generic, NamedTuple, TypeVar, Union, cast
 
 from fpt_ros.laws import Matrix, MutableVector
 
@@ -33,7 +33,15 @@ Record = TypeVar("Record", bound=tuple[Any, ...])
 Buffer = Union["array[float]", "memoryview[float]", "Array"]
 """Doubles in one piece."""
 
-Size = int | tuple[int, int]
+
+class ByRow(NamedTuple):
+    """Size of a matrix that is read row by row only, ``m[row]``, each a vector for a law."""
+
+    rows: int
+    columns: int
+
+
+Size = int | tuple[int, int] | ByRow
 """Length of a vector, or rows and columns of a matrix."""
 
 
@@ -86,6 +94,9 @@ def _view(flat: "memoryview[float] | Array", shape: Size) -> MutableVector | Mat
         return cast(Matrix, flat.reshape(shape))
     if isinstance(shape, int):
         return cast(MutableVector, flat)
+    if isinstance(shape, ByRow):  # a memoryview of two dimensions has no rows
+        n = shape.columns
+        return cast(Matrix, tuple(flat[i * n : (i + 1) * n] for i in range(shape.rows)))
     if not len(flat):
         return cast(Matrix, ())  # a memoryview cannot be without rows
     return cast(Matrix, flat.cast("B").cast("d", shape=shape))

@@ -103,3 +103,9 @@ def no_command(names: Names) -> Command:
     """In the place of the command of the cycle before the first one: nothing is known."""
     unknown: Vector = (float("nan"),) * len(names)
     return Command(-1, names, unknown, unknown)
+
+
+def not_measured(names: Names) -> JointStates:
+    """In the place of a measurement that is not there: nothing is known."""
+    unknown: Vector = (float("nan"),) * len(names)
+    return JointStates(-1, names, unknown, unknown, unknown)

@@ -11,15 +11,24 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any, ClassVar, TypeVar
 
+from fpt_ros.cycle.content import check_content
 from fpt_ros.cycle.joints import Entrance
 from fpt_ros.cycle.records import Buffer, Layout
 from fpt_ros.errors import BadInput
 from fpt_ros.messages.frames import SECOND, Frame, Names
-from fpt_ros.messages.topics import Topic
+from fpt_ros.messages.topics import DESIRED, Topic
 from fpt_ros.parameters import Parameter, Values, resolve
 
 REALTIME = Parameter("realtime", "on the wall clock instead of in lockstep", False, live=False)
 """Declared by all nodes: what they wait for depends on it."""
+
+ROBOT = Parameter(
+    "robot",
+    "joint_states come from a robot: of any quality of service, with stamps of any clock or none",
+    False,
+    live=False,
+)
+"""Declared by all that listen to ``joint_states``; in real time alone."""
 
 CYCLE_TIME = Parameter(
     "cycle_time",
@@ -49,11 +58,12 @@ class Input:
     """A topic that a stage needs in every cycle.
 
     ``lag`` 0: the message of the same cycle; 1: that of the cycle before, of which there is none in
-    the first cycle.
+    the first cycle. ``optional``: in real time it is not waited for.
     """
 
     topic: Topic
     lag: int = 0
+    optional: bool = False
 
 
 class Stage(ABC):
@@ -107,13 +117,19 @@ class Stage(ABC):
         return ()
 
     def admit(self, topic: Topic, frame: Frame) -> Frame:
-        """The frame of an input as the stage wants it: its joints, in its order.
+        """The frame of an input as the stage wants it: its joints, in its order, usable numbers.
 
         Raises:
-            BadInput: a joint is absent, or the frame is not whole.
+            BadInput: a joint is absent, the frame is not whole, or a number is not usable.
         """
-        entrance = self.entrances.get(topic.name)
-        return frame if entrance is None else entrance.take(frame)
+        who, entrance = f"{self.name}, {topic.name}", self.entrances.get(topic.name)
+        if topic is DESIRED:  # behind the entrance NaN is a joint whose turn it is not
+            check_content(who, topic, frame)
+        if entrance is not None:
+            frame = entrance.take(frame)
+        if topic is not DESIRED:
+            check_content(who, topic, frame)
+        return frame
 
     def report(self) -> dict[str, object]:
         """What a watcher should know of its state now, by name; told on /diagnostics."""

@@ -1,5 +1,6 @@
 """What stage 4 computes: what is tuned in a cycle, and what is kept for the next one."""
 
+import math
 from typing import NamedTuple
 
 from fpt_ros.cycle.rows import Commanded, Estimated, TuningRow, Wanted
@@ -14,13 +15,14 @@ FIRST, WATCHING, TUNING_NOW = 0, 1, 2
 
 
 class TunerConstants(NamedTuple):
-    """Fixed: the law's constants, places of the controlled coordinates (where the law needs them).
+    """Fixed: constants of law and model, places of the controlled coordinates (where needed).
 
     ``reference``: Y is taken at the reference motion; ``guards``: the precursor guard acts;
     ``signals``: how many numbers of the law's memory are published; ``tune_from`` [s].
     """
 
     law: Vector
+    model: Vector
     where: Indices
     reference: int
     guards: int
@@ -83,7 +85,7 @@ def tune(
             a[at] = memory.desired[i]
     if len(Y) > 0:
         size = len(values)
-        regressor(memory.position, memory.velocity, w, a, Y)
+        regressor(constants.model, memory.position, memory.velocity, w, a, Y)
         for i in range(len(error)):
             total = 0.0
             for j in range(size):
@@ -112,6 +114,15 @@ def remember(
 
 
 @helper
+def answered(response: Vector) -> bool:
+    """Whether the response is known: of a lost sample it is not."""
+    known = True
+    for x in response:
+        known = known and not math.isnan(x)
+    return known
+
+
+@helper
 def tuning_cycle(
     update: Update,
     regressor: Regressor,
@@ -130,7 +141,7 @@ def tuning_cycle(
         index = observe(memory.observer, command.accelerations)
         if constants.guards:
             memory.factor[0] = guarded(memory.factor[0], index)
-    if phase == TUNING_NOW:
+    if phase == TUNING_NOW and answered(estimate.accelerations):
         tune(update, regressor, constants, memory, work, dt, estimate, desired, command)
     remember(constants, memory, estimate, desired)
     size, signals, values = len(memory.values), constants.signals, out.values
@@ -151,7 +162,7 @@ def phase_of(first: bool, before: float, tune_from: float) -> int:
 
 
 @helper
-def no_regressor(q: Vector, v: Vector, w: Vector, a: Vector, out: MutableVector) -> None:
+def no_regressor(c: Vector, q: Vector, v: Vector, w: Vector, a: Vector, out: MutableVector) -> None:
     """In the place of a regressor where none is needed."""
 
 

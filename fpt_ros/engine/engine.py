@@ -8,7 +8,7 @@ import numpy as np
 from fpt_ros.cycle import loop as cycle
 from fpt_ros.cycle.loop import CycleConstants, CycleMemory, CycleWork
 from fpt_ros.cycle.rows import CommandRow
-from fpt_ros.cycle.run import Run
+from fpt_ros.cycle.run import NO_CHANGES, Changes, Run
 from fpt_ros.cycle.stages import Loop
 from fpt_ros.cycle.tuning import TunerConstants, TunerMemory, TunerWork
 from fpt_ros.engine import compiled
@@ -18,7 +18,6 @@ from fpt_ros.engine.relay import Relay
 from fpt_ros.engine.types import Array, as_arrays, empty
 from fpt_ros.errors import Diverged, RunFailed
 from fpt_ros.messages.frames import SECOND, Command, StateEstimate
-from fpt_ros.messages.topics import COMMAND
 from fpt_ros.notices import notice
 from fpt_ros.runs.chunks import CHUNK, Consumer
 from fpt_ros.runs.run import Series
@@ -48,6 +47,7 @@ class Engine:
         loop: Loop,
         compile_laws: bool = True,
         consumers: Sequence[Consumer] | None = None,
+        changes: Changes = NO_CHANGES,
     ) -> None:
         """Prepare fresh stages for a run.
 
@@ -56,8 +56,9 @@ class Engine:
             compile_laws: whether the loop runs as machine code, or as the Python that it is.
             consumers: of the messages; by default all of them are kept for :meth:`topics`, which
                 takes memory for the whole run.
+            changes: of parameters in flight.
         """
-        self._loop = loop
+        self._loop, self._changes = loop, changes
         self.done = 0
         self._whole = Whole() if consumers is None else None
         taking = [self._whole] if self._whole is not None else list(consumers or ())
@@ -70,13 +71,18 @@ class Engine:
         if not loop.deformer.controlled:
             loop.deformer.begin(loop.trajectory.controlled)
         self._states = [_view(stage.state) for stage in loop.stages()]
-        self._constants = _constants(loop)
         self._command: list[Array] = list(np.full((2, len(plant.coordinates)), np.nan))
+        self._lay_out()
+        self._run: Callable[..., int] = self._prepare(compile_laws)
+
+    def _lay_out(self) -> None:
+        """All that the loop works on, by the parameters that are in force."""
+        loop = self._loop
+        self._constants = _constants(loop)
         self._memory = _memory(loop, self._states, self._command)
         self._work = _work(loop)
-        self._buffers = Buffers(loop, min(CHUNK, plant.cycles))
-        self._spare = Buffers(loop, CHUNK) if long else self._buffers
-        self._run: Callable[..., int] = self._prepare(compile_laws)
+        self._buffers = Buffers(loop, min(CHUNK, self.cycles))
+        self._spare = Buffers(loop, CHUNK) if self.cycles >= LONG else self._buffers
 
     def _prepare(self, compile_laws: bool) -> Callable[..., int]:
         laws = (
@@ -88,6 +94,7 @@ class Engine:
             self._loop.deformer.transformation.deform,
             self._loop.deformer.model.effort,
             self._loop.deformer.compensator.compensate,
+            self._loop.plant.sense,
             self._loop.plant.law,
         )
         if not compile_laws:
@@ -104,22 +111,28 @@ class Engine:
         """Length of the run."""
         return self._loop.plant.cycles
 
-    def run(self, progress: Callable[[int], None] | None = None) -> None:
+    def run(self, progress: Callable[[int], None] | None = None, until: int | None = None) -> None:
         """Run to the end.
 
         Args:
             progress: is told, every now and then, how many cycles are done; what it raises ends
                 the run there.
+            until: end when so many cycles are done.
 
         Raises:
             Diverged: the messages up to there have been given to the consumers.
         """
-        total = self._loop.plant.cycles
+        total = self.cycles if until is None else min(until, self.cycles)
+        stops = sorted((*self._changes, total))
         try:
             while self.done < total:
                 if progress is not None:
                     progress(self.done)
-                self._advance(min(self.done + CHUNK, total))
+                if self.done in self._changes:
+                    self._change()
+                else:
+                    stop = next(stop for stop in stops if stop > self.done)
+                    self._advance(min(self.done + CHUNK, stop))
         finally:
             self._relay.wait()
         if progress is not None:
@@ -136,22 +149,37 @@ class Engine:
         for state, kept in zip(self._remembered(), before, strict=True):
             state[:] = kept
         reached = self._call(first, reached)
-        run = Run(self._loop, reached, self._last_command(reached))
+        self._in_python(first, reached)
+        raise RunFailed(f"cycle {reached} failed compiled, but not as Python: this is a bug")
+
+    def _change(self) -> None:
+        """A cycle in which parameters change, each where its stage acts: as frames."""
+        command = self._in_python(self.done, self.done)
+        for kept, new in zip(self._command, command[2:], strict=True):
+            kept[:] = new
+        self._lay_out()
+
+    def _in_python(self, first: int, cycle: int) -> Command:
+        """Run a cycle as frames, and give all from ``first`` on to the consumers."""
+        run = Run(self._loop, cycle, self._last_command(cycle), self._changes)
         estimate: StateEstimate | None = None
+        command: Command | None = None
         try:
             for topic, frame in run.frames(1):
-                self._buffers.put(reached - first, topic, frame)
+                self._buffers.put(cycle - first, topic, frame)
                 if isinstance(frame, StateEstimate):
                     estimate = frame
-                if topic is COMMAND:  # all its messages are there: it is the plant that fails
-                    self._hand_over(first, reached + 1)
+                if isinstance(frame, Command):  # all its messages are there, the plant may fail
+                    command = frame
+                    self._hand_over(first, cycle + 1)
         except Diverged as error:
             if self.done == first:
-                self._hand_over(first, reached)
+                self._hand_over(first, cycle)
                 raise
             assert estimate is not None
             raise error.because(self._loop.deformer.trouble(estimate.positions)) from None
-        raise RunFailed(f"cycle {reached} failed compiled, but not as Python: this is a bug")
+        assert command is not None
+        return command
 
     def _hand_over(self, first: int, end: int) -> None:
         self.done = end

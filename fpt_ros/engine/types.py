@@ -70,6 +70,9 @@ def as_arrays(record: Any, kind: Any) -> Any:
         return np.array(record, dtype=np.float64)
     if kind == Indices:
         return np.array(record, dtype=np.int64)
+    if kind == Matrix:
+        rows = np.array([list(row) for row in record], dtype=np.float64)
+        return rows if rows.ndim == 2 else np.empty((0, 0))
     if kind in (float, int):
         return kind(record)
     hints = get_type_hints(kind).values()

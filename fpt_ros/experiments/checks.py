@@ -61,9 +61,11 @@ def check_fit(loop: "Loop") -> None:
 def _check_motion(loop: "Loop") -> None:
     """The nominal motion stays in the plant's workspace; a motion found good is not asked again."""
     plant, trajectory = loop.plant, loop.trajectory
+    if plant.plant.workspace is None:
+        return
     key = (
-        plant.plant.workspace,
-        tuple(plant.coefficients),
+        plant.coordinates,
+        tuple(plant.plant.workspace(plant.coefficients)),
         plant.cycles,
         plant.dt,
         trajectory.trajectory.nominal,

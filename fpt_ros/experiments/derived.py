@@ -5,18 +5,25 @@ from typing import cast
 
 from fpt_ros.cycle.denoiser import FILTER_OF_NOISE, METHOD, SYNCHRONISED, Denoiser
 from fpt_ros.cycle.fpt_deformer import FptDeformer
+from fpt_ros.cycle.healing import HEALING, HEALING_OF_LOSSES
 from fpt_ros.cycle.plant_simulator import PlantSimulator
 from fpt_ros.cycle.stage import CYCLE_TIME, JOINTS
+from fpt_ros.cycle.stages import Loop
+from fpt_ros.cycle.suffered import SENSORS
 from fpt_ros.cycle.trajectory_generator import TrajectoryGenerator
 from fpt_ros.cycle.tuned import CONTROLLED
 from fpt_ros.errors import BadInput
 from fpt_ros.experiments.parameter_file import ParameterFile
+from fpt_ros.experiments.response_map import mean_diagonal
 from fpt_ros.experiments.sections import SECTIONS, declared_by
 from fpt_ros.parameters import Value, Values, word
 from fpt_ros.plants import PLANTS, made
 
 OWN_CONTROLLED = (TrajectoryGenerator.name, CONTROLLED.name)
 """Where it is said which coordinates are controlled; other nodes are told."""
+
+AUTO = "auto"
+"""In the place of the deformer's weights: they follow from the response map."""
 
 
 def share_synchronised(file: ParameterFile) -> None:
@@ -53,9 +60,46 @@ def derive_names(
                 values[name] = cast(Value, derived[name])
 
 
+def heal_losses(file: ParameterFile) -> None:
+    """Samples that disturbed sensors lose are healed where nobody has chosen how."""
+    plant = {**file.shared, **file.nodes[PlantSimulator.name]}
+    if plant.get(SENSORS.name) and HEALING.name not in {
+        **file.shared,
+        **file.nodes[Denoiser.name],
+    }:
+        file.nodes[Denoiser.name][HEALING.name] = HEALING_OF_LOSSES
+
+
 def filter_noise(file: ParameterFile) -> None:
     """Noisy measurements are filtered where nobody has chosen how."""
     plant = {**file.shared, **file.nodes[PlantSimulator.name]}
     noisy = any(plant.get(f"noise.{kind}") for kind in ("position", "velocity"))
     if noisy and METHOD.name not in {**file.shared, **file.nodes[Denoiser.name]}:
         file.nodes[Denoiser.name][METHOD.name] = FILTER_OF_NOISE
+
+
+def asks_for_weights(file: ParameterFile) -> bool:
+    """Whether the weights are to be worked out; the word is taken out of the file.
+
+    Raises:
+        BadInput: another word stands there.
+    """
+    nodes = file.nodes[FptDeformer.name]
+    given = nodes.get("weights")
+    if isinstance(given, str) and given != AUTO:
+        raise BadInput(
+            f"{FptDeformer.name}.weights: '{given}' is not valid, it takes a list of numbers, or "
+            f"{AUTO}"
+        )
+    if given == AUTO:
+        del nodes["weights"]
+    return given == AUTO
+
+
+def weights_of(loop: Loop) -> list[float]:
+    """Weights of the response errors that make the mean step of each coordinate alike.
+
+    1 / mean diagonal of J = df/dr along the nominal motion, of M^-1 M^ for an arm: it takes the
+    exact plant, as a simulation has it.
+    """
+    return [1.0 / mean for mean in mean_diagonal(loop)]

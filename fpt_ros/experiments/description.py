@@ -1,6 +1,6 @@
 """What an experiment says about itself: the recorder's section of its parameter file."""
 
-from fpt_ros.cycle.stage import REALTIME
+from fpt_ros.cycle.stage import REALTIME, ROBOT
 from fpt_ros.parameters import Parameter, Values
 
 NODE = "recorder"
@@ -19,6 +19,12 @@ PARAMETERS = (
         minimum=0.0,
         live=False,
     ),
+    Parameter(
+        "circumstance",
+        "the variant is no controller, but what controllers meet: fpt compare lays them over it",
+        False,
+        live=False,
+    ),
     Parameter("cycles", "length of the run; 0: not known", 0, minimum=0, live=False),
     Parameter("directory", "where to record; must not exist", "", live=False),
     Parameter(
@@ -29,6 +35,7 @@ PARAMETERS = (
     ),
     Parameter("await_tuning", "a tuner is in the loop: its topic is part of it", False, live=False),
     REALTIME,
+    ROBOT,
 )
 
 

@@ -1,6 +1,6 @@
 """Experiments: parameter files, their variants, and what was changed on the command line."""
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import cast
@@ -14,7 +14,14 @@ from fpt_ros.cycle.trajectory_generator import TrajectoryGenerator
 from fpt_ros.errors import BadInput
 from fpt_ros.experiments import description, parameter_file
 from fpt_ros.experiments.checks import check_fit
-from fpt_ros.experiments.derived import derive_names, filter_noise, share_synchronised
+from fpt_ros.experiments.derived import (
+    asks_for_weights,
+    derive_names,
+    filter_noise,
+    heal_losses,
+    share_synchronised,
+    weights_of,
+)
 from fpt_ros.experiments.locate import config_directory
 from fpt_ros.experiments.parameter_file import ParameterFile
 from fpt_ros.experiments.sections import SECTIONS, declared_by, resolved
@@ -22,6 +29,10 @@ from fpt_ros.parameters import Value
 
 BASE = "adaptive"
 """Name of the variant that is the file itself, without an overlay."""
+
+
+LAID_OVER = "+"
+"""Between variants that are laid over each other."""
 
 
 @dataclass(frozen=True)
@@ -99,7 +110,8 @@ def load(
     Args:
         name: of an experiment of the package, or the path of a parameter file.
         variant: its overlay ``NAME.VARIANT.yaml``; ``adaptive``: none; or the path of an overlay
-            file of any name, whose stem is then the variant's name.
+            file of any name, whose stem is then the variant's name. Several, joined by ``+``, are
+            laid over each other in this order, as in ``noisy+pid``.
         settings: ``NODE.PARAM=VALUE`` each.
         duration: length of the run [s].
         seed: random seed.
@@ -108,19 +120,23 @@ def load(
         BadInput: anything that is not valid, in one line that says what is.
     """
     path, source = _path_of(name), (name, *(("--variant", variant) if variant != BASE else ()))
-    base, overlay = parameter_file.read(path), ParameterFile()
+    base = parameter_file.read(path)
     for section in SECTIONS:
         if section not in base.nodes:
             raise BadInput(f"{path} lacks the section '{section}': it takes {', '.join(SECTIONS)}")
     _check_nodes(path, base)
-    if variant != BASE:
-        overlay_path = _variant_path(path, variant)
+    layers, names, file = [base], [], base.overlay(ParameterFile())
+    for word in _words(variant):
+        overlay_path = _variant_path(path, word)
         overlay = parameter_file.read(overlay_path)
         _check_nodes(overlay_path, overlay)
-        if is_path(variant):
+        if is_path(word):
             _check_owner(overlay_path, overlay, path.stem)
-            variant = overlay_path.stem
-    file = base.overlay(overlay)
+            word = overlay_path.stem
+        names.append(word)
+        layers.append(file)
+        file = file.overlay(overlay)
+    variant = LAID_OVER.join(names) or BASE
     changes = [_setting(text) for text in settings]
     if duration is not None:
         changes.append((PlantSimulator.name, "duration", duration))
@@ -131,6 +147,8 @@ def load(
     file.nodes[description.NODE].update(experiment=path.stem, variant=variant)
     share_synchronised(file)
     filter_noise(file)
+    heal_losses(file)
+    weighs = asks_for_weights(file)
     in_loop = in_the_loop(file.nodes[ParameterTuner.name])
     for node, parameter, value in changes:
         if parameter == "await_tuning" and value != in_loop:
@@ -139,11 +157,13 @@ def load(
         section_values.pop("await_tuning", None)
     file.shared["await_tuning"] = in_loop
     explicit = {(node, parameter) for node, parameter, _ in changes}
-    derive_names(file, resolved(PlantSimulator.name, file, base, explicit), changes)
-    _check_shared(path, file, base)
-    nodes = {node: resolved(node, file, base, explicit) for node in SECTIONS}
+    derive_names(file, resolved(PlantSimulator.name, file, layers, explicit), changes)
+    _check_shared(path, file, layers)
+    nodes = {node: resolved(node, file, layers, explicit) for node in SECTIONS}
     experiment = Experiment(path.stem, variant, nodes, source)
-    experiment.loop()
+    loop = experiment.loop()
+    if weighs:
+        experiment = experiment.with_values(FptDeformer.name, weights=weights_of(loop))
     return experiment
 
 
@@ -153,7 +173,7 @@ def complete(file: ParameterFile) -> dict[str, dict[str, Value]]:
     Raises:
         BadInput: as :func:`load`.
     """
-    return {node: resolved(node, file, file, set()) for node in SECTIONS if node in file.nodes}
+    return {node: resolved(node, file, [file], set()) for node in SECTIONS if node in file.nodes}
 
 
 def _check_nodes(path: Path, file: ParameterFile) -> None:
@@ -163,10 +183,10 @@ def _check_nodes(path: Path, file: ParameterFile) -> None:
             raise BadInput(f"{path}: there is no node '{node}', only {', '.join(SECTIONS)}")
 
 
-def _check_shared(path: Path, file: ParameterFile, base: ParameterFile) -> None:
-    """Every shared value is known to a node, or was to one in the base file."""
+def _check_shared(path: Path, file: ParameterFile, layers: Sequence[ParameterFile]) -> None:
+    """Every shared value is known to a node, or was to one before a variant."""
     known: set[str] = set()
-    for version in (base, file):
+    for version in (*layers, file):
         for node, parameters in SECTIONS.items():
             known |= declared_by(parameters, {**version.shared, **version.nodes[node]})
     for name in file.shared:
@@ -175,6 +195,13 @@ def _check_shared(path: Path, file: ParameterFile, base: ParameterFile) -> None:
                 f"{path}: no node has the parameter '{name}' of the section "
                 f"{parameter_file.SHARED}: there are {', '.join(sorted(known))}"
             )
+
+
+def _words(variant: str) -> list[str]:
+    """The variants that are laid over each other."""
+    if is_path(variant) and Path(variant).exists():
+        return [variant]
+    return [word for word in variant.split(LAID_OVER) if word != BASE]
 
 
 def is_path(text: str) -> bool:

@@ -5,6 +5,7 @@ from collections.abc import Iterator
 from fpt_ros.compensators import Observed
 from fpt_ros.cycle.stages import Loop
 from fpt_ros.experiments.law_trial import Point, Trial, keep, out, read, split
+from fpt_ros.experiments.plant_trials import plant_trials
 from fpt_ros.parameters import word
 from fpt_ros.tuning import Seen
 
@@ -17,6 +18,8 @@ def laws_of(loop: Loop) -> tuple[object, ...]:
         plant.advance,
         plant.start,
         loop.plant.disturbance.force,
+        loop.plant.integrator.over,
+        loop.plant.suffered.laws,
         loop.denoiser.filter.start,
         loop.denoiser.filter.update,
         loop.trajectory.trajectory.nominal,
@@ -35,7 +38,7 @@ def laws_of(loop: Loop) -> tuple[object, ...]:
 def trials(loop: Loop) -> Iterator[Trial]:
     """All laws of a loop, in the order of events."""
     points = _points(loop)
-    yield from _of_plant(loop, points)
+    yield from plant_trials(loop, points)
     yield from _of_filter(loop, points)
     yield from _of_trajectory(loop)
     yield from _of_tuner(loop, points)
@@ -47,81 +50,6 @@ def _points(loop: Loop) -> list[Point]:
     q, v = list(memory.position), list(memory.velocity)
     beside = [x + 0.1 * (i + 1) for i, x in enumerate(q)]
     return [(q, v), (beside, [x + 0.2 * (i + 1) for i, x in enumerate(v)])]
-
-
-def _of_plant(loop: Loop, points: list[Point]) -> Iterator[Trial]:
-    stage, plant, n = loop.plant, loop.plant.plant, len(loop.plant.coordinates)
-    c, h, effort = stage.coefficients, stage.constants.h, [0.5] * n
-    name = f"plant_simulator.plant {word(stage.values, 'plant')}:"
-    force, acts = stage.disturbance.force, list(stage.constants.disturbance)
-    kind = word(stage.values, "disturbance.kind")
-
-    def state_at(q: list[float], v: list[float]) -> list[float]:
-        state = list(stage.memory.own)
-        if plant.start is not None:
-            plant.start(c, state, q, v)
-        return state
-
-    if plant.response is not None:
-        yield Trial(
-            f"{name} response",
-            plant.response,
-            split("coefficients q v effort out"),
-            lambda: [
-                (*read("coefficients q v effort", c, q, v, effort), out("out", n))
-                for q, v in points
-            ],
-        )
-    if plant.start is not None:
-        yield Trial(
-            f"{name} start",
-            plant.start,
-            split("coefficients state q v"),
-            lambda: [
-                (
-                    *read("coefficients", c),
-                    keep("state", [0.0] * plant.state),
-                    *read("q v", q, v),
-                )
-                for q, v in points
-            ],
-        )
-    if plant.advance is not None:
-        yield Trial(
-            f"{name} advance",
-            plant.advance,
-            split("coefficients state t dt effort external q v acted"),
-            lambda: [
-                (
-                    *read("coefficients", c),
-                    keep("state", state_at(q, v)),
-                    0.0,
-                    h,
-                    *read("effort external", effort, [0.0] * n),
-                    keep("q", q),
-                    keep("v", v),
-                    out("acted", n),
-                )
-                for q, v in points
-            ],
-        )
-    yield Trial(
-        f"plant_simulator.disturbance.kind {kind}: force",
-        force,
-        split("constants state t h q v"),
-        lambda: [
-            (
-                *read("constants", acts),
-                keep("state", [0.0] * stage.disturbance.state),
-                0.0,
-                h,
-                q[stage.constants.disturbed],
-                v[stage.constants.disturbed],
-            )
-            for q, v in points
-        ],
-        gives_number=True,
-    )
 
 
 def _of_filter(loop: Loop, points: list[Point]) -> Iterator[Trial]:
@@ -201,8 +129,14 @@ def _of_tuner(loop: Loop, points: list[Point]) -> Iterator[Trial]:
         yield Trial(
             f"parameter_tuner.model {word(stage.values, 'model')}: regressor",
             stage.regressor,
-            split("q v w a out"),
-            lambda: [(*read("q v w a", q, v, v, a), out("out", rows * size)) for q, v in points],
+            split("coefficients q v w a out"),
+            lambda: [
+                (
+                    *read("coefficients q v w a", constants.model, q, v, v, a),
+                    out("out", rows * size),
+                )
+                for q, v in points
+            ],
         )
     fields = "seen.Y seen.error seen.tracking seen.h seen.r"
     yield Trial(

@@ -14,6 +14,7 @@ from ruamel.yaml.scalarstring import DoubleQuotedScalarString
 
 from fpt_ros.errors import BadInput
 from fpt_ros.parameters import Value, Values
+from fpt_ros.yaml_text import parse
 
 SHARED = "/**"
 
@@ -40,7 +41,7 @@ def scalar(text: str) -> object:
         BadInput: not YAML.
     """
     try:
-        return YAML(typ="safe", pure=True).load(text)
+        return parse(text)
     except YAMLError as error:
         raise BadInput(f"'{text}' is not a YAML value: {_first_line(error)}") from error
 
@@ -52,7 +53,7 @@ def read(path: Path) -> ParameterFile:
         BadInput: it cannot be read, is not YAML, or is not made of ``ros__parameters`` sections.
     """
     try:
-        content = YAML(typ="safe", pure=True).load(path.read_text(encoding="utf-8"))
+        content = parse(path.read_text(encoding="utf-8"))
     except (OSError, UnicodeDecodeError) as error:
         reason = error.strerror if isinstance(error, OSError) else "not UTF-8 text"
         raise BadInput(f"{path} cannot be read: {reason}") from error

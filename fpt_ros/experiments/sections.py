@@ -1,6 +1,6 @@
 """The sections of a parameter file: a node each, and how their parameters are resolved."""
 
-from collections.abc import Callable, Set
+from collections.abc import Callable, Iterable, Set
 from functools import partial
 
 from fpt_ros.cycle.stages import STAGES
@@ -16,14 +16,18 @@ SECTIONS: dict[str, Callable[[Values], tuple[Parameter, ...]]] = {
 
 
 def resolved(
-    node: str, file: ParameterFile, base: ParameterFile, explicit: Set[tuple[str, str]]
+    node: str,
+    file: ParameterFile,
+    layers: Iterable[ParameterFile],
+    explicit: Set[tuple[str, str]],
 ) -> dict[str, Value]:
     """Complete, checked parameters of a node.
 
-    A value of the base file that belongs to a law which the variant replaced is dropped.
+    A value that belongs to a law which a variant has replaced is dropped; ``layers``: what the file
+    was before each of its overlays.
     """
     declared = partial(declared_by, SECTIONS[node])
-    before = declared({**base.shared, **base.nodes[node]})
+    before = {name for one in layers for name in declared({**one.shared, **one.nodes[node]})}
     given = {**file.shared, **file.nodes[node]}
     now = declared(given)
     own = {

@@ -27,9 +27,10 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from fpt_ros.errors import BadInput
+from fpt_ros.experiments.response_map import Point, nominal_points
 from fpt_ros.gain.limits import MARGIN, Gain, times
 from fpt_ros.gain.map import scalar_map
-from fpt_ros.gain.motion import Point, feedback, nominal_points, spectrum
+from fpt_ros.gain.motion import feedback, spectrum
 from fpt_ros.tuning import GAIN
 
 if TYPE_CHECKING:

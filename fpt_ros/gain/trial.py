@@ -6,9 +6,10 @@ from fpt_ros.analysis.metrics import Metrics, summary
 from fpt_ros.engine.engine import Engine
 from fpt_ros.errors import RunFailed
 from fpt_ros.experiments.experiment import Experiment
+from fpt_ros.experiments.response_map import Point
 from fpt_ros.gain.contraction import bounds
 from fpt_ros.gain.limits import Gain
-from fpt_ros.gain.motion import Point, along
+from fpt_ros.gain.motion import along
 from fpt_ros.runs.run import Run, describe
 
 METRIC = "rms_settled"

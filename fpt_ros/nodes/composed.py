@@ -12,7 +12,7 @@ from fpt_ros.nodes.stage_node import StageNode
 def main() -> None:
     """Run all nodes until the plant has finished."""
     factories = [
-        DeformerNode,
+        lambda: DeformerNode(reports=False),
         lambda: StageNode(ParameterTuner),
         lambda: StageNode(TrajectoryGenerator),
         lambda: StageNode(Denoiser),

@@ -1,27 +1,121 @@
-"""Console script ``fpt_deformer``."""
+"""Console script ``fpt_deformer``: the node that gives the commands, and may have to stop."""
 
-from std_msgs.msg import Float64MultiArray
+from time import monotonic
+
+from diagnostic_msgs.msg import DiagnosticStatus
+from rclpy.parameter import Parameter as RosParameter
+from std_msgs.msg import Bool, Float64MultiArray
+from std_srvs.srv import Trigger
 
 from fpt_ros.cycle.fpt_deformer import FptDeformer
-from fpt_ros.messages.frames import Command, Frame
-from fpt_ros.nodes.process import run_process
+from fpt_ros.cycle.limits import COMMAND_TIMEOUT, STOPPED
+from fpt_ros.errors import Diverged
+from fpt_ros.messages.frames import SECOND, Command, Frame
+from fpt_ros.nodes.process import report_progress, run_process
+from fpt_ros.nodes.robot import EFFORT_COMMAND
 from fpt_ros.nodes.stage_node import StageNode
 
-EFFORT_COMMAND = "effort_command"
+E_STOP = "e_stop"
+"""A topic (true: stop), and a service of the node; ``RELEASE`` is a service alone."""
+
+RELEASE = "release"
+
+AGAIN = 0.02
+"""Seconds after which the safe effort is commanded once more while nothing is measured."""
 
 
 class DeformerNode(StageNode):
-    """The deformer; on request its efforts also go to a ros2_control effort controller."""
+    """The deformer; on request its efforts also go to a ros2_control effort controller.
 
-    def __init__(self) -> None:
+    In real time it commands the safe effort where nothing has been measured for
+    ``command_timeout``. An emergency stop is the parameter ``stopped``, set by a service, a topic,
+    or as any parameter: so it is recorded with its cycle.
+    """
+
+    def __init__(self, reports: bool = True) -> None:
+        """``reports``: whether it tells how many cycles are done, if nobody else does."""
         super().__init__(FptDeformer)
+        self._reports = reports
         self._efforts = self.create_publisher(Float64MultiArray, EFFORT_COMMAND, 1)
+        self._measured_at = 0.0
+        self.create_service(Trigger, f"~/{E_STOP}", self._on_e_stop)
+        self.create_service(Trigger, f"~/{RELEASE}", self._on_release)
+        self.create_subscription(Bool, E_STOP, self._on_e_stop_topic, 10)
 
     def send(self, frame: Frame) -> None:
         """Publish the command, and the bare efforts where ``effort_command`` is set."""
         super().send(frame)
         if self.stage.values["effort_command"] and isinstance(frame, Command):
             self._efforts.publish(Float64MultiArray(data=list(frame.effort)))
+
+    def _step(self, frames: list[Frame | None]) -> None:
+        try:
+            super()._step(frames)
+        except Diverged as error:
+            if not self._robot:
+                raise
+            self.ignore(f"this cycle, the safe effort is commanded: {error}")  # a robot goes on
+            self.stage.forget()
+            self._command_safe_effort()
+        if self.level != DiagnosticStatus.OK:
+            self.level = DiagnosticStatus.OK
+            self.get_logger().warning("measured again: the controller takes over")
+        timeout = self.stage.limits.timeout
+        if self._realtime and timeout > 0.0:
+            self._measured_at = monotonic()
+            self.deadline = self._measured_at + timeout
+
+    def housekeeping(self) -> None:
+        """Progress, where it is not the plant that tells it."""
+        super().housekeeping()
+        if self._reports:
+            report_progress(self.cycles_done)
+
+    def close(self) -> None:
+        """In real time the last command is the safe effort, whatever the reason of the end."""
+        if self._realtime and self._matcher.acted >= 0 and self.context.ok():
+            self._command_safe_effort()
+
+    def on_deadline(self) -> None:
+        """Nothing is measured any more."""
+        if self.level == DiagnosticStatus.OK:
+            self.level = DiagnosticStatus.ERROR
+            self.get_logger().error(
+                f"nothing has been measured for {COMMAND_TIMEOUT.name} = "
+                f"{self.stage.limits.timeout:g} s: the safe effort is commanded"
+            )
+        self._command_safe_effort()
+        self.deadline = monotonic() + AGAIN
+
+    def _command_safe_effort(self) -> None:
+        age = monotonic() - self._measured_at if self._measured_at else 0.0
+        self.send(self.stage.safe_command(self._matcher.acted + round(age * SECOND)))
+
+    def health(self) -> tuple[str, dict[str, object]]:
+        """Whether it controls."""
+        if self.stage.limits.stopped:
+            return "stopped: the safe effort is commanded", {}
+        if self.level != DiagnosticStatus.OK:
+            return "nothing is measured: the safe effort is commanded", {}
+        return super().health()
+
+    def _stop(self, stopped: bool) -> tuple[bool, str]:
+        (result,) = self.set_parameters([RosParameter(STOPPED.name, value=stopped)])
+        if stopped and self._realtime and self._matcher.acted >= 0:
+            self._command_safe_effort()  # now, not at the next measurement
+        return bool(result.successful), str(result.reason)
+
+    def _on_e_stop(self, request: Trigger.Request, response: Trigger.Response) -> Trigger.Response:
+        response.success, response.message = self._stop(True)
+        return response
+
+    def _on_release(self, request: Trigger.Request, response: Trigger.Response) -> Trigger.Response:
+        response.success, response.message = self._stop(False)
+        return response
+
+    def _on_e_stop_topic(self, message: Bool) -> None:
+        if message.data:
+            self._stop(True)
 
 
 def main() -> None:

@@ -7,6 +7,7 @@ happens, the recording is closed, and no process is left.
 
 import asyncio
 import ctypes
+import math
 import os
 import signal
 import sys
@@ -16,6 +17,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 
+from fpt_ros.cycle.fpt_deformer import FptDeformer
 from fpt_ros.cycle.parameter_tuner import ParameterTuner
 from fpt_ros.cycle.plant_simulator import PlantSimulator
 from fpt_ros.cycle.stages import STAGES
@@ -23,6 +25,7 @@ from fpt_ros.errors import BadInput, FptError, Interrupted, RunFailed
 from fpt_ros.experiments.description import NODE as RECORDER
 from fpt_ros.experiments.experiment import Experiment
 from fpt_ros.nodes import cores, shared_memory
+from fpt_ros.nodes.robot import Robot
 
 STALL = 60.0
 """Seconds without a new cycle after which the graph is given up."""
@@ -72,6 +75,7 @@ def run(
     realtime: bool = False,
     namespace: str = "",
     progress: Callable[[int], None] | None = None,
+    robot: Robot | None = None,
 ) -> None:
     """Run an experiment as processes over DDS.
 
@@ -82,27 +86,34 @@ def run(
         realtime: on the wall clock instead of in lockstep.
         namespace: ROS namespace of all nodes.
         progress: is told how many cycles are done.
+        robot: in the place of the plant's node; what it does follows the wall clock.
 
     Raises:
         BadInput: a node refused its parameters.
         RunFailed: a node failed or died; the recording is closed and says why.
         Interrupted: Ctrl-C.
     """
+    realtime = realtime or robot is not None
     experiment = experiment.for_graph(realtime)
+    if robot is not None:
+        experiment = robot.experiment(experiment)
     recorded = record is not None
     experiment = experiment.with_values(PlantSimulator.name, await_recorder=recorded)
     if record is not None:
         cycles, directory = experiment.loop().plant.cycles, str(record.absolute())
+        cycles = cycles if robot is None else 0
         experiment = experiment.with_values(RECORDER, directory=directory, cycles=cycles)
     with tempfile.TemporaryDirectory(prefix="fpt_ros-") as folder:
         parameters = Path(folder) / "parameters.yaml"
         experiment.write(parameters)
         arguments = ["--ros-args", "--params-file", str(parameters)]
+        if robot is not None:
+            arguments += robot.remappings()
         if namespace:
             arguments += ["-r", f"__ns:=/{namespace.strip('/')}"]
         with shared_memory.left_as_found():
             core = None if composed or realtime else cores.idlest()
-            asyncio.run(_Graph(arguments, composed, recorded, core, progress).run())
+            asyncio.run(_Graph(arguments, composed, recorded, core, progress, robot).run())
 
 
 def environment() -> Mapping[str, str]:
@@ -133,17 +144,22 @@ class _Graph:
         recorded: bool,
         core: int | None,
         progress: Callable[[int], None] | None,
+        robot: Robot | None,
     ) -> None:
         self._arguments = arguments
+        self._robot = robot
         self._recorded = recorded
         self._core = core
         self._loop_names = ["composed"] if composed else list(reversed(STAGES))
         self._plant = "composed" if composed else PlantSimulator.name
+        if robot is not None:
+            self._loop_names.remove(PlantSimulator.name)
+            self._plant = FptDeformer.name
         self._progress = progress
         self._loop: list[_Child] = []
         self._recorder: _Child | None = None
         self._stop = asyncio.Event()
-        self._moved = 0.0
+        self._moved = self._began = 0.0
         self._cycle = 0
         self._partial = b""
 
@@ -202,6 +218,10 @@ class _Graph:
                     if child.name == self._plant:
                         return None
                     return RunFailed(f"the node {child.name} ended before the run did")
+                if self._robot is not None and self._cycle:
+                    self._began = self._began or clock.time()
+                    if clock.time() - self._began >= (self._robot.lasts or math.inf):
+                        return None
                 if clock.time() - self._moved > STALL:
                     return RunFailed(
                         f"no cycle was completed for {STALL:g} s: is DDS working between the "

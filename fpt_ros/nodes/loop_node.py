@@ -6,20 +6,47 @@ from time import monotonic
 from typing import Any
 
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus, KeyValue
+from rclpy.callback_groups import CallbackGroup
 from rclpy.node import Node
+from rclpy.qos import QoSProfile
 from rclpy.subscription import Subscription
 
 from fpt_ros.messages.topics import Topic
 from fpt_ros.nodes.qos import loop_qos
+from fpt_ros.nodes.sender import UNKNOWN, Sender
 
 DIAGNOSTICS_PERIOD = 1.0
 """Seconds between two messages on /diagnostics."""
+
+REASONS = 32
+"""Different reasons for which a node says that it has ignored a message."""
 
 
 def message_class(ros_type: str) -> Any:
     """The Python class of ``package/msg/Name``."""
     package, kind, name = ros_type.split("/")
     return getattr(importlib.import_module(f"{package}.{kind}"), name)
+
+
+class LoopGroup(CallbackGroup):
+    """Subscriptions that executors leave alone: the spinner takes their messages, with senders.
+
+    Attributes:
+        is_open: whether an executor serves them after all.
+    """
+
+    is_open = False
+
+    def can_execute(self, entity: Any) -> bool:
+        """Asked by executors."""
+        return self.is_open
+
+    def beginning_execution(self, entity: Any) -> bool:
+        """Asked by executors."""
+        return self.is_open
+
+    def ending_execution(self, entity: Any) -> None:
+        """Told by executors."""
 
 
 class LoopNode(Node):
@@ -29,27 +56,54 @@ class LoopNode(Node):
         loop_subscriptions: the ones that the spinner waits for and takes.
         finished: set when the node's work is done; the process then ends with status 0.
         deadline: monotonic time [s] at which :meth:`on_deadline` is due, or None.
+        newest_counts: all messages that have come are taken, and then :meth:`act` is called.
         level: of what it tells on /diagnostics.
+        ignored: number of messages that were not used.
     """
 
     def __init__(self, name: str) -> None:
         super().__init__(name)
         self.loop_subscriptions: list[Subscription] = []
-        self.finished = False
+        self.loop_group = LoopGroup()
+        self.finished = self.newest_counts = False
         self.deadline: float | None = None
         self.cycles_done = 0
+        self.ignored = 0
+        self._reasons: dict[str, None] = {}
+        self._senders: list[Sender] = []
         self.level = DiagnosticStatus.OK
         self._diagnostics = self.create_publisher(DiagnosticArray, "/diagnostics", 10)
         self._reported = monotonic(), 0
 
     def subscribe_raw(
-        self, name: str, ros_type: str, depth: int, on_bytes: Callable[[bytes], None]
+        self,
+        name: str,
+        ros_type: str,
+        qos: QoSProfile,
+        on_bytes: Callable[[bytes], bool],
     ) -> None:
-        """Subscribe to a latched, reliable topic; ``on_bytes`` gets its serialised messages."""
+        """Subscribe to a topic that has one publisher; ``on_bytes`` gets its serialised messages.
+
+        The publisher is the first one for whose message ``on_bytes`` says that it was used.
+        """
+        sender = Sender(self, name, self.ignore)
+        self._senders.append(sender)
+
+        def receive(data: bytes, gid: bytes = UNKNOWN) -> None:
+            if not sender.is_heard(gid):
+                self.ignored += 1
+            elif on_bytes(data) and sender.chosen != gid:
+                sender.choose(gid)
+
         kind = message_class(ros_type)
-        self.loop_subscriptions.append(
-            self.create_subscription(kind, name, on_bytes, loop_qos(depth), raw=True)
-        )
+        self.loop_subscriptions.append(self.create_subscription(kind, name, receive, qos, raw=True))
+
+    def ignore(self, reason: str) -> None:
+        """Tell, once a reason, on /rosout and /diagnostics, why a message is not used."""
+        self.ignored += 1
+        if reason not in self._reasons and len(self._reasons) < REASONS:
+            self._reasons[reason] = None
+            self.get_logger().error(f"ignored: {reason}")
 
     def advertise(self, topic: Topic) -> Callable[[bytes], None]:
         """Advertise a loop topic; what is returned publishes a serialised message."""
@@ -59,6 +113,9 @@ class LoopNode(Node):
 
     def begin(self) -> None:
         """Called once when everything is set up, before the first wait."""
+
+    def act(self) -> None:
+        """Called in real time when all that has come is taken."""
 
     def on_deadline(self) -> None:
         """Called when ``deadline`` has passed."""
@@ -77,12 +134,19 @@ class LoopNode(Node):
         if now - since >= DIAGNOSTICS_PERIOD:
             self._publish_diagnostics((self.cycles_done - cycles) / (now - since))
             self._reported = now, self.cycles_done
+            for sender in self._senders:
+                sender.look_whether_gone()
 
     def _publish_diagnostics(self, rate: float) -> None:
         summary, values = self.health()
         values = {"cycles": self.cycles_done, "rate [1/s]": f"{rate:.1f}", **values}
+        level = self.level
+        if self.ignored:
+            level = max(level, DiagnosticStatus.WARN)
+            values["ignored messages"] = self.ignored
+            values["ignored, last reason"] = next(reversed(self._reasons))
         status = DiagnosticStatus(
-            level=self.level,
+            level=level,
             name=self.get_fully_qualified_name().lstrip("/"),
             hardware_id="fpt_ros",
             message=summary,

@@ -16,7 +16,7 @@ from fpt_ros.messages.cdr import Codec, MalformedMessage
 from fpt_ros.messages.frames import SECOND, Command
 from fpt_ros.messages.topics import COMMAND, DEPTH, JOINT_STATES
 from fpt_ros.nodes.process import report_progress
-from fpt_ros.nodes.qos import LATEST
+from fpt_ros.nodes.qos import heard_qos
 from fpt_ros.nodes.recorded_until import RECORDED_UNTIL, TIME, decode_time
 from fpt_ros.nodes.stage_node import ParameterisedNode
 from fpt_ros.runs.latency import HISTOGRAM, LARGEST, MISSED, Histogram
@@ -26,6 +26,9 @@ WINDOW = DEPTH * 3 // 4
 
 REMEMBERED = 1024
 """Cycles whose command may still come and be timed."""
+
+AGAIN = 0.5
+"""Seconds without a command after which, in lockstep, the measurement is published once more."""
 
 LAST_REPORT = Duration(seconds=2)
 """How long the last report waits for those who hear it, the recorder among them."""
@@ -48,13 +51,15 @@ class PlantNode(ParameterisedNode):
         self._held_back = False
         self._sent_at: deque[float] = deque(maxlen=REMEMBERED)
         self._timed = -1
+        self._sent_again = 0.0
         self._next_tick = 0.0
         self._misses = 0
         self._latencies: list[float] = []
         self._histogram = Histogram()
-        self.subscribe_raw(COMMAND.name, COMMAND.type, LATEST, self._on_command)
+        qos = heard_qos(self._realtime)
+        self.subscribe_raw(COMMAND.name, COMMAND.type, qos, self._on_command)
         if self._awaits_recorder:
-            self.subscribe_raw(RECORDED_UNTIL, TIME, 1, self._on_recorded)
+            self.subscribe_raw(RECORDED_UNTIL, TIME, qos, self._on_recorded)
 
     def begin(self) -> None:
         """Publish cycle 0, where a recorder is awaited as soon as it says that it has begun."""
@@ -70,23 +75,24 @@ class PlantNode(ParameterisedNode):
         self._sent_at.append(monotonic())
         self.send(self.stage.measure(self._stamp, self._cycle))
 
-    def _on_command(self, data: bytes) -> None:
+    def _on_command(self, data: bytes) -> bool:
         try:
             command = self.stage.admit(COMMAND, self._decode(data))
         except (MalformedMessage, BadInput) as error:
-            self.ignore(error)
-            return
+            self.ignore(str(error))
+            return False
         assert isinstance(command, Command)
         if self._realtime and command.stamp > self._timed:
             self._time(command.stamp)
         if command.stamp != self._stamp or command is self._command:
-            return
+            return False
         repeated = self._command is not None and self._command.stamp == command.stamp
         self._command = command
         if self._realtime:
             self._start_clock()
         elif not repeated:
             self._end_cycle(command)
+        return True
 
     def _start_clock(self) -> None:
         """Real time begins when cycle 0 has gone around, and is recorded: all are there then."""
@@ -144,24 +150,34 @@ class PlantNode(ParameterisedNode):
             return False
         return self._recorded < self._stamp - WINDOW * self.stage.cycle_time
 
-    def _on_recorded(self, data: bytes) -> None:
+    def _on_recorded(self, data: bytes) -> bool:
+        try:
+            until = decode_time(data)
+        except MalformedMessage as error:
+            self.ignore(str(error))
+            return False
         if self._stamp < 0:
             self._start()
-        self._recorded = max(self._recorded, decode_time(data))
+        self._recorded = max(self._recorded, until)
         if self._realtime:
             self._start_clock()
         if not self._held_back:
-            return
+            return True
         if self._cycle == self.stage.cycles:
             self.finished = self._recorded >= self._stamp
         elif not self._behind():
             self._held_back = False
             self._publish_cycle()
+        return True
 
     def housekeeping(self) -> None:
         """Progress; and a plant that comes second does not start."""
         super().housekeeping()
         report_progress(self._cycle)
+        waits = not (self._realtime or self._held_back or self.finished or not self._sent_at)
+        if waits and monotonic() - max(self._sent_at[-1], self._sent_again) > AGAIN:
+            self._sent_again = monotonic()
+            self.send_again()  # a message of this cycle may have been lost
         if self._cycle == 0 and self.count_publishers(JOINT_STATES.name) > 1:
             raise RunFailed(
                 f"another node publishes {self.resolve_topic_name(JOINT_STATES.name)} in this ROS "

@@ -11,7 +11,7 @@ from fpt_ros.nodes.loop_node import LoopNode
 from fpt_ros.nodes.spin import spin
 
 
-class _Stop:
+class Stop:
     """Set by SIGINT and SIGTERM; the spinner looks at it a few dozen times a second."""
 
     signal = 0
@@ -33,16 +33,23 @@ def run_process(factories: Sequence[Callable[[], LoopNode]], name: str, about: s
     if "--help" in sys.argv[1:] or "-h" in sys.argv[1:]:
         print(_usage(name, about))
         sys.exit(0)
-    stop = _Stop()
+    stop = Stop()
     try:
-        _run(factories, stop)
+        run_nodes(factories, stop, sys.argv)
     except FptError as error:
         print(f"{name}: {error}", file=sys.stderr, flush=True)
         sys.exit(error.exit_status)
     sys.exit(0)
 
 
-def _run(factories: Sequence[Callable[[], LoopNode]], stop: _Stop) -> None:
+def run_nodes(
+    factories: Sequence[Callable[[], LoopNode]], stop: Stop, arguments: list[str]
+) -> None:
+    """Run nodes until they finish or are stopped; ``arguments``: a command line with ROS's own.
+
+    Raises:
+        BadInput, RunFailed: of a node.
+    """
     import rclpy
     from rclpy.context import Context
     from rclpy.impl.implementation_singleton import rclpy_implementation
@@ -51,7 +58,7 @@ def _run(factories: Sequence[Callable[[], LoopNode]], stop: _Stop) -> None:
 
     middleware.configure()
     try:
-        rclpy.init(args=sys.argv, signal_handler_options=SignalHandlerOptions.NO)
+        rclpy.init(args=arguments, signal_handler_options=SignalHandlerOptions.NO)
     except rclpy_implementation.RCLError as error:
         raise BadInput(f"ROS arguments or parameter file: {str(error).splitlines()[0]}") from error
     context: Context = get_default_context()

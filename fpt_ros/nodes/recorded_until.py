@@ -7,6 +7,7 @@ can be lost, neither at the start, while DDS discovers, nor under load.
 
 import struct
 
+from fpt_ros.messages.cdr import MalformedMessage
 from fpt_ros.messages.frames import SECOND
 
 RECORDED_UNTIL = "recorded_until"
@@ -26,6 +27,12 @@ def encode_time(stamp: int) -> bytes:
 
 
 def decode_time(data: bytes) -> int:
-    """Stamp [ns] of a builtin_interfaces/Time."""
+    """Stamp [ns] of a builtin_interfaces/Time.
+
+    Raises:
+        MalformedMessage: the bytes are too few.
+    """
+    if len(data) < _LAYOUT.size:
+        raise MalformedMessage(f"{RECORDED_UNTIL}: {len(data)} bytes are not a {TIME}")
     seconds, nanoseconds = _LAYOUT.unpack_from(data)
     return int(seconds) * SECOND + int(nanoseconds)

@@ -15,7 +15,9 @@ from array import array
 from collections.abc import Callable
 from datetime import datetime
 from functools import reduce
+from itertools import pairwise
 from pathlib import Path
+from time import time_ns
 
 from diagnostic_msgs.msg import DiagnosticStatus
 from rclpy.subscription import Subscription
@@ -23,15 +25,17 @@ from rclpy.subscription import Subscription
 from fpt_ros import __version__
 from fpt_ros.bags.split import Split
 from fpt_ros.bags.writer import BagWriter
+from fpt_ros.cycle.arrivals import Arrivals
 from fpt_ros.cycle.matcher import under_way
 from fpt_ros.errors import RunFailed
 from fpt_ros.experiments import description
 from fpt_ros.experiments.experiment import BASE, complete
 from fpt_ros.experiments.parameter_file import ParameterFile, read
+from fpt_ros.messages.cdr import Codec, MalformedMessage
 from fpt_ros.messages.frames import SECOND
-from fpt_ros.messages.topics import DEPTH, LOOP_TOPICS, TUNING
+from fpt_ros.messages.topics import DEPTH, JOINT_STATES, LOOP_TOPICS, TUNING, Topic
 from fpt_ros.nodes.loop_node import LoopNode, message_class
-from fpt_ros.nodes.qos import loop_qos
+from fpt_ros.nodes.qos import HEARD, loop_qos, sensor_qos
 from fpt_ros.nodes.recorded_until import BEGUN, RECORDED_UNTIL, TIME, encode_time
 from fpt_ros.nodes.ros_parameters import declare
 from fpt_ros.nodes.snapshot import Snapshot
@@ -65,6 +69,7 @@ class Recorder(LoopNode):
         super().__init__(description.NODE)
         values = declare(self, description.parameters)
         self._lockstep = values.get("realtime") is not True
+        self._robot = values.get("robot") is True
         if not self._lockstep:
             os.nice(NICE)
         self._cycles = integer(values, "cycles")
@@ -102,16 +107,16 @@ class Recorder(LoopNode):
         self._until = self.create_publisher(message_class(TIME), RECORDED_UNTIL, loop_qos(1))
         for topic in LOOP_TOPICS:
             if topic != TUNING or values.get("await_tuning") is True:
-                self._record_loop_topic(topic.name, topic.type)
+                self._record_loop_topic(topic)
         for name, kind in SIDE_TOPICS.items():
             self._record_side_topic(name, kind)
 
-    def _record_loop_topic(self, name: str, kind: str) -> None:
-        index = len(self._counts)
+    def _record_loop_topic(self, topic: Topic) -> None:
+        index, name, kind = len(self._counts), topic.name, topic.type
         self._counts.append(0)
-        resolved = self.resolve_topic_name(name)
-        self._writer.add_topic(resolved, kind, DEPTH)
-        self.subscribe_raw(name, kind, 4 * DEPTH, self._on_loop_message(index, resolved, kind))
+        self._writer.add_topic(self.resolve_topic_name(name), kind, DEPTH)
+        qos = sensor_qos(HEARD) if self._robot and topic is JOINT_STATES else loop_qos(HEARD)
+        self.subscribe_raw(name, kind, qos, self._on_loop_message(index, topic))
 
     def _write(self, name: str, kind: str, stamp: int, data: bytes) -> None:
         """Record a message; where that cannot be done any more, say so once."""
@@ -133,16 +138,28 @@ class Recorder(LoopNode):
             return str(self._lost), {}
         return ("recording" if self._started else "waiting for the nodes of the loop"), {}
 
-    def _on_loop_message(self, index: int, name: str, kind: str) -> Callable[[bytes], None]:
+    def _on_loop_message(self, index: int, topic: Topic) -> Callable[[bytes], bool]:
         write, counts, stamps = self._write, self._counts, self._stamps
+        arrivals = Arrivals() if self._robot and topic is JOINT_STATES else None
+        name, kind, decode = self.resolve_topic_name(topic.name), topic.type, Codec(topic).decode
 
-        def record(data: bytes) -> None:
-            seconds, nanoseconds = _STAMP.unpack_from(data, 4)
-            stamp = seconds * SECOND + nanoseconds
+        def record(data: bytes) -> bool:
+            try:
+                seconds, nanoseconds = _STAMP.unpack_from(data, 4)
+                stamp = seconds * SECOND + nanoseconds
+                if arrivals is not None:
+                    stamp = arrivals.stamp(stamp, time_ns())
+                if self._is_unexpected(index, stamp):
+                    decode(data)
+                if stamp < 0:
+                    raise MalformedMessage
+            except (struct.error, MalformedMessage):
+                self.ignore(f"{name}: {len(data)} bytes that are not a {kind}")
+                return False
             count = counts[index]
             if self._lockstep:
                 if count and stamp <= stamps[count - 1]:
-                    return  # not of this run: a second plant that is about to give up
+                    return False  # not of this run: a second plant that is about to give up
                 if count == 0 and stamp > 0:
                     raise under_way(stamp)
                 if count == len(stamps):
@@ -158,8 +175,16 @@ class Recorder(LoopNode):
             counts[index] = count + 1
             if self._done() >= self._acknowledged + ACKNOWLEDGE:
                 self._acknowledge()
+            return True
 
         return record
+
+    def _is_unexpected(self, index: int, stamp: int) -> bool:
+        """Whether this is not the stamp that follows, so that the bytes may be anything."""
+        stamps, count = self._stamps, self._counts[index]
+        if count < len(stamps):
+            return stamps[count] != stamp
+        return len(stamps) < 2 or stamp - stamps[-1] != stamps[-1] - stamps[-2]
 
     def _done(self) -> int:
         """Cycles recorded: of all topics in lockstep; in real time some answers may be missing."""
@@ -248,6 +273,19 @@ class Recorder(LoopNode):
         if not reason and self._lockstep and len(set(self._counts)) > 1:
             reason = "the recorder was stopped in the middle of a cycle"
         self._writer.close(reason)
+        if reason and self._saw_the_end():
+            raise RunFailed(
+                f"the recording lacks {self._cycles - len(self._stamps)} of {self._cycles} cycles: "
+                "the recorder was too slow, or stood still; the run was complete"
+            )
+
+    def _saw_the_end(self) -> bool:
+        """In real time: whether the last cycle has come, whatever is missing before it."""
+        stamps = self._stamps
+        if self._lockstep or not 2 <= len(stamps) < self._cycles:
+            return False
+        shortest = min(b - a for a, b in pairwise(stamps))
+        return stamps[-1] - stamps[0] >= (self._cycles - 1) * shortest > 0
 
 
 def _reason() -> str:

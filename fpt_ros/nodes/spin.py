@@ -14,6 +14,8 @@ from rclpy.context import Context
 from rclpy.executors import SingleThreadedExecutor, TimeoutException
 
 from fpt_ros.nodes.loop_node import LoopNode
+from fpt_ros.nodes.qos import HEARD
+from fpt_ros.nodes.take import taker
 
 SERVICE_PERIOD = 0.04
 """Seconds between two looks at the parameters, services and timers of a node."""
@@ -32,7 +34,7 @@ class _LoopWaitSet:
         from rclpy.impl.implementation_singleton import rclpy_implementation
 
         self._entries = [
-            (sub.handle.pointer, sub.handle, sub.msg_type, sub.callback)
+            (sub.handle.pointer, sub.handle, taker(sub), sub.callback)
             for node in reversed(nodes)
             for sub in node.loop_subscriptions
         ]
@@ -59,20 +61,24 @@ class _LoopWaitSet:
         wait_set.wait(max(0, int(timeout * 1e9)))
         ready = wait_set.get_ready_entities("subscription")
         self._filled = len(ready) == len(self._entries)  # the others are taken out by the wait
-        for pointer, handle, kind, callback in self._entries:
+        for pointer, _, take, callback in self._entries:
             if pointer in ready:
-                taken = handle.take_message(kind, True)
-                if taken is not None:
-                    callback(taken[0])
+                for _ in range(HEARD):
+                    taken = take()
+                    if taken is None:
+                        break
+                    callback(*taken)
         return bool(ready) != self._polls
 
     def _poll(self) -> bool:
         """Hand over what is there already."""
         came = False
-        for _, handle, kind, callback in self._entries:
-            taken = handle.take_message(kind, True)
-            if taken is not None:
-                callback(taken[0])
+        for _, _, take, callback in self._entries:
+            for _ in range(HEARD):
+                taken = take()
+                if taken is None:
+                    break
+                callback(*taken)
                 came = True
         return came
 
@@ -119,7 +125,7 @@ def spin(nodes: Sequence[LoopNode], stopped: Callable[[], bool], context: Contex
     served = list(zip(cycle(executors), nodes, strict=False))
     for executor, node in served:
         executor.add_node(node)
-    hot = wait_set or _PlainExecutor(executors[0])
+    hot = wait_set or _PlainExecutor(executors[0], nodes)
     services = _Services(served)
     for node in nodes:
         node.begin()
@@ -138,6 +144,8 @@ def spin(nodes: Sequence[LoopNode], stopped: Callable[[], bool], context: Contex
                     timeout = min(timeout, max(0.0, node.deadline - now))
             quiet = hot.wait_and_dispatch(timeout)
             for node in nodes:
+                if node.newest_counts:
+                    node.act()
                 if node.deadline is not None and monotonic() >= node.deadline:
                     node.on_deadline()
                 if node.finished:
@@ -152,8 +160,10 @@ class _PlainExecutor:
 
     patience = 0.0
 
-    def __init__(self, executor: SingleThreadedExecutor) -> None:
+    def __init__(self, executor: SingleThreadedExecutor, nodes: Sequence[LoopNode]) -> None:
         self._executor = executor
+        for node in nodes:
+            node.loop_group.is_open = True
 
     def wait_and_dispatch(self, timeout: float) -> bool:
         """As of the wait set; what it does not know is when the loop is quiet."""
@@ -167,7 +177,7 @@ def _wait_set(nodes: Sequence[LoopNode], context: Context) -> _LoopWaitSet | Non
         return None
     try:
         return _LoopWaitSet(nodes, context)
-    except (AttributeError, TypeError, ImportError) as error:
+    except (AttributeError, TypeError, ImportError, OSError) as error:
         nodes[0].get_logger().warning(
             f"this rclpy has no wait set of the kind known here ({error}): "
             "the loop runs on the plain executor, several times slower"

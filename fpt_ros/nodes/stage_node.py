@@ -1,28 +1,26 @@
 """A node around one stage: it waits for the messages of a cycle, steps, and publishes."""
 
 from collections.abc import Callable, Mapping
+from time import time_ns
 from typing import Any
 
 from rcl_interfaces.msg import ParameterEvent
 from rclpy.parameter import Parameter as RosParameter
 
+from fpt_ros.cycle.arrivals import Arrivals
 from fpt_ros.cycle.matcher import Matcher
 from fpt_ros.cycle.stage import Stage
 from fpt_ros.errors import BadInput
 from fpt_ros.messages.cdr import Codec, MalformedMessage
 from fpt_ros.messages.frames import SECOND, Frame
-from fpt_ros.messages.topics import Topic
+from fpt_ros.messages.topics import JOINT_STATES, Topic
 from fpt_ros.nodes.loop_node import LoopNode
-from fpt_ros.nodes.qos import LATEST
+from fpt_ros.nodes.qos import LATEST, heard_qos, sensor_qos
 from fpt_ros.nodes.ros_parameters import declare, watch
 from fpt_ros.parameters import Value
 
 CHANGES = "parameter_changes"
 """Topic of the changes made in flight, each with the stamp of the cycle in which it took effect."""
-
-
-REASONS = 32
-"""Different reasons for which a node says that it has ignored a message."""
 
 
 class ParameterisedNode(LoopNode):
@@ -32,10 +30,10 @@ class ParameterisedNode(LoopNode):
         super().__init__(kind.name)
         self.stage: Any = kind(declare(self, kind.parameters))
         self._pending: dict[str, Value] = {}
-        self._ignored: set[str] = set()
         self._changes = self.create_publisher(ParameterEvent, CHANGES, 10)
         self._publish = self.advertise(kind.output) if self.publishes else None
         self._encode = Codec(kind.output).encode
+        self._sent = b""
         watch(self, self._accept)
 
     @property
@@ -67,18 +65,17 @@ class ParameterisedNode(LoopNode):
         ]
         self._changes.publish(event)
 
-    def ignore(self, error: Exception) -> None:
-        """Tell, once a reason, why a message was not used; the loop stays as it was."""
-        reason = str(error)
-        if reason not in self._ignored and len(self._ignored) < REASONS:
-            self._ignored.add(reason)
-            self.get_logger().error(f"ignored: {reason}")
-
     def send(self, frame: Frame) -> None:
         """Publish the stage's output."""
         assert self._publish is not None
-        self._publish(self._encode(frame))
+        self._sent = self._encode(frame)
+        self._publish(self._sent)
         self.cycles_done += 1
+
+    def send_again(self) -> None:
+        """Publish the last output once more: who has it ignores it, who waits for it goes on."""
+        if self._publish is not None and self._sent:
+            self._publish(self._sent)
 
 
 class StageNode(ParameterisedNode):
@@ -90,13 +87,20 @@ class StageNode(ParameterisedNode):
 
     def __init__(self, kind: type[Stage]) -> None:
         super().__init__(kind)
-        inputs = self.stage.inputs
+        inputs = self._inputs = self.stage.inputs
         realtime = bool(self.stage.values.get("realtime", False))
         cycle_time = round(float(self.stage.values.get("cycle_time", 0.0)) * SECOND)
         self._matcher = Matcher(inputs, cycle_time, realtime)
+        self._realtime = self.newest_counts = realtime
+        self._newest: list[Frame | None] | None = None
+        self._robot = bool(self.stage.values.get("robot", False))
+        if self._robot and not realtime:
+            raise BadInput(f"{kind.name}.robot: a robot lives in wall time, set realtime as well")
         for i, each in enumerate(inputs):
+            of_robot = self._robot and each.topic is JOINT_STATES
+            qos = sensor_qos(LATEST) if of_robot else heard_qos(realtime)
             receive = self._receiver(i, each.topic)
-            self.subscribe_raw(each.topic.name, each.topic.type, LATEST, receive)
+            self.subscribe_raw(each.topic.name, each.topic.type, qos, receive)
 
     @property
     def publishes(self) -> bool:
@@ -105,22 +109,49 @@ class StageNode(ParameterisedNode):
 
     def health(self) -> tuple[str, dict[str, object]]:
         """What the stage reports."""
-        return "running", self.stage.report()
+        summary, values = super().health()
+        return summary, {**values, **self.stage.report()}
 
-    def _receiver(self, index: int, topic: Topic) -> Callable[[bytes], None]:
+    def _receiver(self, index: int, topic: Topic) -> Callable[[bytes], bool]:
         take, decode = self._matcher.take, Codec(topic).decode
+        arrivals = Arrivals() if self._robot and topic is JOINT_STATES else None
 
-        def receive(data: bytes) -> None:
+        def receive(data: bytes) -> bool:
             try:
                 frame = self.stage.admit(topic, decode(data))
             except (MalformedMessage, BadInput) as error:
-                self.ignore(error)
-                return
+                self.ignore(str(error))
+                return False
+            if arrivals is not None:
+                frame = self._in_time(arrivals, frame)
             frames = take(index, frame)
+            if self._realtime:
+                self._newest = frames or self._newest
+                return True
             if frames is not None:
                 self._step(frames)
+            elif frame.stamp == self._matcher.acted and self._inputs[index].lag == 0:
+                self.send_again()
+            return frame.stamp == 0
 
         return receive
+
+    def act(self) -> None:
+        """The newest cycle; those before it were not in time."""
+        frames, self._newest = self._newest, None
+        if frames is not None:
+            self._step(frames)
+
+    def _in_time(self, arrivals: Arrivals, frame: Frame) -> Frame:
+        """A robot's message with a stamp that can be used."""
+        replaced = arrivals.replaced
+        stamp = arrivals.stamp(frame.stamp, time_ns())
+        if replaced == 0 and arrivals.replaced:
+            self.get_logger().warning(
+                f"stamps of joint_states are missing or of a clock that was set ({frame.stamp} "
+                "ns): the time of arrival counts from now on"
+            )
+        return frame._replace(stamp=stamp)
 
     def _step(self, frames: list[Frame | None]) -> None:
         """One cycle."""

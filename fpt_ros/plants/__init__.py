@@ -20,8 +20,8 @@ Response = Callable[[Vector, Vector, Vector, Vector, MutableVector], None]
 Effort = Callable[[Vector, Vector, Vector, Vector, Vector, MutableVector], None]
 """(coefficients, q, v, r, s, out)"""
 
-Regressor = Callable[[Vector, Vector, Vector, Vector, MutableVector], None]
-"""(q, v, w, a, out)"""
+Regressor = Callable[[Vector, Vector, Vector, Vector, Vector, MutableVector], None]
+"""(coefficients, q, v, w, a, out)"""
 
 Advance = Callable[
     [
@@ -101,10 +101,11 @@ class Model:
             response r (length n; NaN where it is not prescribed) at (q, v). s is the combined error
             (:mod:`fpt_ros.relaxations`), 0 where a coordinate is not controlled; only models
             with a feedback of their own use it.
-        regressor: ``regressor(q, v, w, a, out)`` writes the matrix Y (rows x coefficients, row
-            after row) with effort = Y Theta for the acceleration a; w is the second velocity of
-            products of velocities (v itself, or the reference velocity of Slotine and Li);
-            ``None`` where the model is not linear in its coefficients.
+        regressor: ``regressor(coefficients, q, v, w, a, out)`` writes the matrix Y (rows x
+            coefficient names, row after row) with effort = Y Theta for the acceleration a; w is the
+            second velocity of products of velocities (v itself, or the reference velocity of
+            Slotine and Li). Of the coefficients Y may depend on those alone that have no name
+            and are not tuned. ``None`` where the model is not linear in its coefficients.
         rows: number of rows of Y.
         trouble: ``trouble(coefficients, q)`` says in words what makes the model unusable at q, with
             its value and the remedy (singular, not positive definite); empty where nothing does.

@@ -35,7 +35,7 @@ def effort(c: Vector, q: Vector, v: Vector, r: Vector, s: Vector, out: MutableVe
     out[2] = c[0] * (cos * r[0] - sin * v[0] * (v[0] + s[0])) + c[3] * r[2] + c[5] * s[2]
 
 
-def regressor(q: Vector, v: Vector, w: Vector, a: Vector, out: MutableVector) -> None:
+def regressor(c: Vector, q: Vector, v: Vector, w: Vector, a: Vector, out: MutableVector) -> None:
     """Y of Q = Y Theta: three rows of five."""
     cos, sin = math.cos(q[0]), math.sin(q[0])
     for i in range(15):

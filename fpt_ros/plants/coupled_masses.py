@@ -54,7 +54,7 @@ def effort(c: Vector, q: Vector, v: Vector, r: Vector, s: Vector, out: MutableVe
     out[1] = c[7] * r[1] + _rest(c, q, v, 1)
 
 
-def regressor(q: Vector, v: Vector, w: Vector, a: Vector, out: MutableVector) -> None:
+def regressor(c: Vector, q: Vector, v: Vector, w: Vector, a: Vector, out: MutableVector) -> None:
     """Y of Q = Y Theta: two rows of ten."""
     for i in range(20):
         out[i] = 0.0

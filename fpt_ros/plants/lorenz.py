@@ -2,9 +2,12 @@
 
     x' = sigma (y - x) + u_x,   y' = x (rho - z) - y + u_y,   z' = x y - beta z + u_z
 
-A plant of order 1. The model of the source leaves out y of the second equation and has y in the
-place of x y in the third: its error does not vanish with exact parameters.
+A plant of order 1. The model ``lorenz`` has the same equations; ``lorenz_incomplete``, of the
+source's program, leaves out y of the second one and has y in the place of x y in the third: its
+error does not vanish with exact parameters.
 """
+
+from dataclasses import replace
 
 from fpt_ros.laws import MutableVector, Vector
 from fpt_ros.parameters import Parameter
@@ -28,6 +31,16 @@ def response(c: Vector, q: Vector, v: Vector, effort: Vector, out: MutableVector
 
 
 def effort(c: Vector, q: Vector, v: Vector, r: Vector, s: Vector, out: MutableVector) -> None:
+    """The inputs that should cause r."""
+    x, y, z = q[0], q[1], q[2]
+    out[0] = r[0] - c[0] * (y - x)
+    out[1] = r[1] - (x * (c[2] - z) - y)
+    out[2] = r[2] - (x * y - c[1] * z)
+
+
+def incomplete_effort(
+    c: Vector, q: Vector, v: Vector, r: Vector, s: Vector, out: MutableVector
+) -> None:
     """The inputs that should cause r, by the model of the source."""
     x, y, z = q[0], q[1], q[2]
     out[0] = r[0] - c[0] * (y - x)
@@ -53,3 +66,5 @@ MODEL = Model(
     coefficients=tuple,
     effort=effort,
 )
+
+INCOMPLETE = replace(MODEL, effort=incomplete_effort)

@@ -47,7 +47,7 @@ def effort(theta: Vector, q: Vector, v: Vector, r: Vector, s: Vector, out: Mutab
     out[0] = theta[0] * r[0] + _spring_and_damper(theta, q[0], v[0])
 
 
-def regressor(q: Vector, v: Vector, w: Vector, a: Vector, out: MutableVector) -> None:
+def regressor(c: Vector, q: Vector, v: Vector, w: Vector, a: Vector, out: MutableVector) -> None:
     """Y = (q'', q^2 q', -q', q, q^3, q^5) (2.2), one row of six."""
     q2 = q[0] * q[0]
     out[0] = a[0]

@@ -9,12 +9,16 @@ from fpt_ros.errors import BadInput
 _TRACKING = ("rms_settled", "max_settled", "rms", "max")
 _EFFORT = {"effort": "rms", "effort_max": "max"}
 _FINAL = "final."
+_WHOLE = "whole."
 
 
 def metric(result: Mapping[str, object], name: str) -> float | None:
     """One number of a summary by the name that ``--metric`` has for it."""
     if name == "chatter":
         return cast("float | None", result["chatter"])
+    if name.startswith(_WHOLE):  # over all coordinates: fpt compare
+        whole = cast("Mapping[str, float | None]", result["whole"])
+        return whole[name.removeprefix(_WHOLE)]
     kind, _, of = name.partition(".")
     if name.startswith(_FINAL):
         return cast("Mapping[str, float | None]", result["final_parameters"]).get(of)

@@ -1,8 +1,9 @@
 """The runs of a sweep: given to a pool in chunks, written to the journal as they come."""
 
 from collections import deque
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import FIRST_COMPLETED, Future, wait
+from functools import partial
 from itertools import islice
 from pathlib import Path
 from typing import Any
@@ -10,7 +11,7 @@ from typing import Any
 from fpt_ros.errors import RunFailed
 from fpt_ros.sweep.definition import Sweep
 from fpt_ros.sweep.executor import Pool
-from fpt_ros.sweep.job import Job, Row
+from fpt_ros.sweep.job import Row
 from fpt_ros.sweep.journal import Journal
 from fpt_ros.sweep.run_one import run_chunk
 
@@ -25,6 +26,10 @@ TRIES = 4
 
 Progress = Callable[[int, int], None]
 """Is told how many runs are done, and how many of them are not complete; may raise to end."""
+
+
+Work = Callable[[Sequence[int]], tuple[float, list[Row]]]
+"""Makes the rows with these numbers, in whatever process: seconds that it took, and the rows."""
 
 
 def run(sweep: Sweep, directory: Path, pool: Pool, progress: Progress) -> Journal:
@@ -42,7 +47,7 @@ def run(sweep: Sweep, directory: Path, pool: Pool, progress: Progress) -> Journa
     )
     try:
         progress(journal.done, journal.lost)
-        for rows in _rows(job, journal, pool, progress):
+        for rows in rows_of(partial(run_chunk, job), journal, pool, progress):
             journal.append(rows)
             progress(journal.done, journal.lost)
     except BaseException:
@@ -51,8 +56,12 @@ def run(sweep: Sweep, directory: Path, pool: Pool, progress: Progress) -> Journa
     return journal
 
 
-def _rows(job: Job, journal: Journal, pool: Pool, progress: Progress) -> Iterator[list[Row]]:
-    """Rows as they come; a few chunks for each worker are under way at any time."""
+def rows_of(work: Work, journal: Journal, pool: Pool, progress: Progress) -> Iterator[list[Row]]:
+    """Rows as they come; a few chunks for each worker are under way at any time.
+
+    Raises:
+        RunFailed: workers die again and again, or the scheduler has gone.
+    """
     numbers = journal.missing()
     again: deque[tuple[list[int], int]] = deque()
     running: dict[Future[Any], tuple[list[int], int]] = {}
@@ -63,7 +72,7 @@ def _rows(job: Job, journal: Journal, pool: Pool, progress: Progress) -> Iterato
                 chunk, tries = again.popleft() if again else (list(islice(numbers, size)), 0)
                 if not chunk:
                     break
-                running[pool.submit(run_chunk, job, chunk)] = chunk, tries
+                running[pool.submit(work, chunk)] = chunk, tries
             if not running:
                 return
             ready, _ = wait(running, timeout=0.2, return_when=FIRST_COMPLETED)

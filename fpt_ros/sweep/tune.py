@@ -6,6 +6,7 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import cast
 
+from fpt_ros.cycle.stages import Loop
 from fpt_ros.errors import BadInput, RunFailed
 from fpt_ros.experiments.experiment import Experiment, load
 from fpt_ros.parameters import Value
@@ -53,12 +54,14 @@ class Task:
         parameters: what is tuned.
         metrics: what shall be small; of several the mean of the logarithms.
         limits: what must not be exceeded.
+        simulate: makes a run and gives its summary.
     """
 
     job: Job
     parameters: tuple[TunedParameter, ...]
     metrics: tuple[str, ...]
     limits: Mapping[str, float]
+    simulate: Callable[[Experiment, Loop], Mapping[str, object]] = simulate
 
 
 def define(
@@ -143,7 +146,7 @@ def search(task: Task, trials: int, seed: int, progress: Callable[[int, float], 
     found = {
         str(k.target): cast("float", v) for k, v in zip(task.parameters, best_point, strict=True)
     }
-    after = simulate(experiment, loop)
+    after = task.simulate(experiment, loop)
     assert before is not None
     return Result(experiment, before, after, present, found, trials)
 
@@ -159,7 +162,7 @@ def _typed(parameter: TunedParameter, value: float) -> Value:
 def _result(task: Task, point: tuple[Value, ...]) -> Mapping[str, object] | None:
     """The summary of a run; ``None`` where the parameters do not go together."""
     try:
-        return simulate(*experiments_of(task.job).at(point))
+        return task.simulate(*experiments_of(task.job).at(point))
     except BadInput:
         return None
 

@@ -7,8 +7,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from fpt_ros.analysis import motion_figures, response_figures, signals, style
-from fpt_ros.analysis.labels import all_names
-from fpt_ros.analysis.legends import colour_of
+from fpt_ros.analysis.labels import all_names, colour_of
 from fpt_ros.analysis.panels import Panels
 from fpt_ros.cycle.plant_simulator import PlantSimulator
 from fpt_ros.runs.run import Array, Run, Series
@@ -116,10 +115,10 @@ def disturbance(*keys: str) -> Draw:
         made = Panels.of(runs, ["d"])
         for name, column, run in made.cells(runs):
             time, force = disturbance_of(run)
-            axes = made.take(name, column, force)
-            if axes is not None:
-                style.draw(axes, time, force, style.thin(style.COORDINATES[4]))
-                axes.set_ylabel("disturbance force")
+            panel = made.take(name, column, force)
+            if panel is not None:
+                panel.draw(time, force, style.thin(style.COORDINATES[4]))
+                panel.y_label = "disturbance force"
                 made.scale(name, column, force)
         return made.finish()
 
@@ -152,16 +151,17 @@ def iterations(*keys: str, first: int) -> Draw:
                 at = signals.controlled(run).index(name)
                 count, y = count[:first], deformed[:first, at]
                 colour = colour_of(run, name)
-            axes = made.take(name, column, y)
-            if axes is None:
+            panel = made.take(name, column, y)
+            if panel is None:
                 continue
             if name == "size":
-                style.draw(axes, count, y, style.thin(colour))
-                axes.set_ylabel("response error, $\\log_{10}||h||$")
+                panel.draw(count, y, style.thin(colour))
+                panel.y_label = "response error, $\\log_{10}||h||$"
             else:
-                axes.plot(count, y, color=colour, linewidth=1.0, marker="o", markersize=3)
-                axes.set_ylabel(f"r of {style.symbol(name)}")
-            axes.set_xlabel("iteration")
+                dots: style.Style = {"linewidth": 1.0, "marker": "o", "markersize": 3}
+                panel.draw(count, y, {"color": colour, **dots})
+                panel.y_label = f"r of {style.symbol(name)}"
+            panel.x_label = "iteration"
             made.scale(name, column, y)
             made.scale_x(name, column, count)
         return made.finish()

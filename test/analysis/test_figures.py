@@ -9,11 +9,12 @@ from fpt_ros.analysis import decimate, style
 from fpt_ros.analysis.captions import CAPTIONS
 from fpt_ros.analysis.figures import charts
 from fpt_ros.analysis.labels import labels_of
+from fpt_ros.runs.changes import Change
 from fpt_ros.runs.latency import EDGES, Latencies
 from fpt_ros.runs.run import Run, Series
 
-TORA = ["tracking", "tracking_error", "phase_trajectories", "responses", "responses_zoom"]
-TORA += ["forces", "uncontrolled"]
+TORA = ["tracking", "tracking_error", "errors_together", "phase_trajectories", "responses"]
+TORA += ["responses_zoom", "forces", "uncontrolled"]
 
 
 def visible(chart):
@@ -27,6 +28,7 @@ def test_tora_side_by_side_has_the_figures_of_the_thesis(make):
     assert numbers == [
         "Fig. 3.21",
         "Fig. 3.22",
+        "",
         "Fig. 3.23",
         "Fig. 3.24",
         "Fig. 3.25",
@@ -38,6 +40,7 @@ def test_tora_side_by_side_has_the_figures_of_the_thesis(make):
 
 def test_columns_share_the_scale_of_a_row(make):
     found = charts([make("tora", "nonadaptive"), make("tora")])
+    del found["errors_together"]  # all runs are in one column there
     for chart in found.values():
         axes = visible(chart)
         for left, right in zip(axes[::2], axes[1::2], strict=True):
@@ -146,8 +149,36 @@ def test_captions_exist_for_every_figure_and_every_figure_has_its_name(make):
     counts[9] = 3
     timed = replace(make("tora", duration=1.0), latency=Latencies(tuple(counts), 1e-5, 0, 4))
     found = charts([make("vdp_rfpt", duration=1.0), timed])
-    assert list(found) == list(CAPTIONS)
+    found |= charts([make("noisy_tora", duration=1.0), make("noisy_tora", "raw", 1.0)])
+    assert set(found) == set(CAPTIONS)
     assert all(chart.name == name and chart.caption for name, chart in found.items())
+
+
+def test_changes_in_flight_are_marked_where_they_are_in_the_figure(make):
+    changes = tuple(Change("fpt_deformer", round(t * 1e9), {"A": -2.0}) for t in (0.25, 0.75))
+    found = charts([replace(make("tora", duration=1.0), changes=changes)])
+    for name in ("tracking", "forces", "responses"):
+        for axes in visible(found[name]):
+            marks = [line for line in axes.lines if line.get_color() == style.CHANGE["color"]]
+            assert [line.get_xdata()[0] for line in marks] == [0.25, 0.75]
+    zoom = visible(found["responses_zoom"])[0]
+    assert zoom.get_xlim()[0] > 0.25
+    assert found["forces"].panels.legend[-1].label == "changed in flight"
+
+
+def test_errors_of_runs_of_one_plant_stand_on_top_of_each_other(make):
+    one, two = make("tora", "nonadaptive", 1.0), make("tora", duration=1.0)
+    panel = charts([one, two])["errors_together"].panels.taken["q3", 0]
+    assert [curve.label for curve in panel.curves] == ["nonadaptive", "adaptive"]
+    assert panel.curves[0].style["color"] != panel.curves[1].style["color"]
+    assert "errors_together" not in charts([one])
+    assert "errors_together" not in charts([one, make("vdp_rfpt", duration=1.0)])
+
+
+def test_labels_can_be_spoken():
+    assert style.spoken(style.label(style.symbol("q12"), "m")) == "q₁₂ [m]"
+    assert style.spoken(r"$q_{3}$$^{\,N}-\,$$q_{3}$") == "q₃ᴺ − q₃"
+    assert style.spoken(style.symbol("a$b_c")) == "a$b_c"
 
 
 def test_labels_tell_runs_apart():

@@ -44,7 +44,7 @@ def in_chunks(run, size):
     outliner = Outliner(run.parameters)
     for first in range(0, CYCLES, size):
         outliner.take({name: rows(s, first, first + size) for name, s in run.topics.items()})
-    return outliner.result(run.info)
+    return outliner.result(run)
 
 
 def test_an_outline_keeps_peaks_and_exact_numbers(long):

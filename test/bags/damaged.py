@@ -51,3 +51,9 @@ def positions(path: Path) -> tuple[list[float], Bag]:
             with contextlib.suppress(MalformedMessage):
                 found.append(codec.decode(item.data)[2][0])
     return found, bag
+
+
+def states(k: int) -> bytes:
+    """Message number k on /joint_states."""
+    frame = JointStates(k * STEP, ("q1",), (float(k),), (0.0,), (0.0,))
+    return Codec(JOINT_STATES).encode(frame)

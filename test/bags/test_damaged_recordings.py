@@ -3,13 +3,12 @@
 import os
 import random
 import shutil
-import sqlite3
 import struct
 from pathlib import Path
 
 import pytest
 import zstandard
-from damaged import PARAMETERS, STEP, positions, recording
+from damaged import PARAMETERS, STEP, positions, recording, states
 from mcap.reader import make_reader
 from mcap.writer import CompressionType, IndexType, Writer
 
@@ -17,9 +16,7 @@ from fpt_ros.bags import reader
 from fpt_ros.bags.bag import Bag
 from fpt_ros.bags.schemas import schema
 from fpt_ros.errors import BadInput
-from fpt_ros.messages.cdr import Codec
-from fpt_ros.messages.frames import JointStates
-from fpt_ros.messages.topics import JOINT_STATE, JOINT_STATES
+from fpt_ros.messages.topics import JOINT_STATE
 
 TRIALS = int(os.environ.get("FPT_ROS_TRIALS", "150"))
 """Bytes to cut at and bits to flip; a large number tries them all."""
@@ -144,11 +141,6 @@ def test_absurd_lengths(whole: Path, tmp_path: Path) -> None:
 # --- files of other tools, and folders
 
 
-def states(k: int) -> bytes:
-    frame = JointStates(k * STEP, ("q1",), (float(k),), (0.0,), (0.0,))
-    return Codec(JOINT_STATES).encode(frame)
-
-
 def written(path: Path, count: int = 50, **options: object) -> Path:
     """A file of mcap's own writer, of a good topic."""
     with path.open("wb") as stream:
@@ -271,52 +263,6 @@ def test_a_pipe_is_refused(tmp_path: Path) -> None:
     os.mkfifo(tmp_path / "pipe.mcap")
     with pytest.raises(BadInput, match="is a pipe or a device"):
         Bag(tmp_path / "pipe.mcap")
-
-
-# --- rosbag2's older files
-
-
-@pytest.fixture
-def db3(tmp_path: Path) -> Path:
-    path = tmp_path / "old" / "old_0.db3"
-    path.parent.mkdir()
-    with sqlite3.connect(path) as bag:
-        bag.executescript(
-            "CREATE TABLE topics(id INTEGER PRIMARY KEY, name TEXT, type TEXT, "
-            "serialization_format TEXT, offered_qos_profiles TEXT);"
-            "CREATE TABLE messages(id INTEGER PRIMARY KEY, topic_id INTEGER, timestamp INTEGER, "
-            "data BLOB);"
-        )
-        bag.execute("INSERT INTO topics VALUES(1, '/joint_states', ?, 'cdr', '')", (JOINT_STATE,))
-        rows = [(1, k * STEP, states(k)) for k in range(500)]
-        bag.executemany("INSERT INTO messages(topic_id, timestamp, data) VALUES(?, ?, ?)", rows)
-    bag.close()
-    return path
-
-
-def test_sqlite(db3: Path) -> None:
-    for way in (db3, db3.parent):
-        found, bag = positions(way)
-        assert found == [float(k) for k in range(500)]
-        assert bag.missing == []
-    assert [each.name for each in db3.parent.iterdir()] == ["old_0.db3"]  # nothing is left there
-    packed = db3.parent.with_name("packed") / "old_0.db3.zstd"
-    packed.parent.mkdir()
-    packed.write_bytes(zstandard.compress(db3.read_bytes()))
-    assert len(positions(packed)[0]) == 500
-
-
-def test_cut_sqlite(db3: Path, tmp_path: Path) -> None:
-    data = db3.read_bytes()
-    for size in (10, 100, 5000, 20_000, len(data) - 4096):
-        path = tmp_path / "cut.db3"
-        path.write_bytes(data[:size])
-        try:
-            found, bag = positions(path)
-        except BadInput:
-            continue
-        assert bag.missing
-        assert found == [float(k) for k in range(len(found))]
 
 
 def test_parameters_with_another_checksum(whole: Path, tmp_path: Path) -> None:

@@ -21,6 +21,11 @@ Row = tuple[int, Sequence[str], Sequence[float], Sequence[float]]
 
 def joints(path: Path, rows: Sequence[Row]) -> Path:
     """(time, names, positions, velocities) as messages of /joint_states; efforts are empty."""
+    return write_joints(path, [(row[0], row) for row in rows])
+
+
+def write_joints(path: Path, rows: Sequence[tuple[int, Row]]) -> Path:
+    """The same, recorded at times [ns] of another clock than that of their stamps [s]."""
     store = get_typestore(Stores.ROS2_JAZZY)
     kinds = store.types
     with path.open("wb") as stream:
@@ -30,7 +35,7 @@ def joints(path: Path, rows: Sequence[Row]) -> Path:
         channel = writer.register_channel(
             "/joint_states", "cdr", writer.register_schema(JOINT_STATE, "ros2msg", text)
         )
-        for stamp, names, position, velocity in rows:
+        for log_time, (stamp, names, position, velocity) in rows:
             header = kinds["std_msgs/msg/Header"](
                 stamp=kinds["builtin_interfaces/msg/Time"](sec=stamp, nanosec=0), frame_id=""
             )
@@ -42,7 +47,7 @@ def joints(path: Path, rows: Sequence[Row]) -> Path:
                 effort=np.array([]),
             )
             data = bytes(store.serialize_cdr(message, JOINT_STATE))
-            writer.add_message(channel, stamp, data, stamp)
+            writer.add_message(channel, log_time, data, log_time)
         writer.finish()
     return path
 
@@ -78,6 +83,32 @@ def test_changing_order_and_missing_elements(tmp_path: Path) -> None:
     assert velocity.warnings == ()
 
 
+def test_the_clock_of_the_sender(tmp_path: Path) -> None:
+    """Sent at equal steps of a clock that begins at 0, recorded whenever they came."""
+    count = 40
+    path = tmp_path / "late.mcap"
+    late = np.random.default_rng(5).uniform(0.0, 0.9, count)
+    write_joints(
+        path,
+        [
+            (round(1e9 * (1e9 + k + late[k])), (k, ("a",), (float(k),), ()))
+            for k in range(count)
+        ],
+    )  # fmt: skip
+    recorded = read_field(path, "joint_states", "position.a")
+    assert recorded.stamps[0] > 1e18
+    (warning,) = recorded.warnings
+    assert warning == (
+        "messages on joint_states were recorded at uneven times: --time header.stamp takes those "
+        "at which they were sent"
+    )
+    sent = read_field(path, "joint_states", "position.a", clock="header.stamp")
+    assert sent.stamps.tolist() == [k * 10**9 for k in range(count)]
+    assert (sent.values.tolist(), sent.warnings) == (recorded.values.tolist(), ())
+    with pytest.raises(BadInput, match=r"--time stamp: messages on joint_states have no such time"):
+        read_field(path, "joint_states", "position.a", clock="stamp")
+
+
 def test_messages_out_of_order_are_sorted(tmp_path: Path) -> None:
     rows: list[Row] = [(stamp, ("a",), (float(stamp),), ()) for stamp in (3, 1, 2)]
     found = read_field(joints(tmp_path / "a.mcap", rows), "joint_states", "position[0]")
@@ -103,6 +134,12 @@ def test_what_is_not_there(
         read_field(path, topic, field, joint)
     assert complaint in str(caught.value)
     assert "\n" not in str(caught.value)
+
+
+def test_a_joint_that_is_named_twice(tmp_path: Path) -> None:
+    path = joints(tmp_path / "a.mcap", [(0, ("a", "a"), (1.0, 2.0), ())])
+    with pytest.raises(BadInput, match="--joint a: messages on joint_states name a joint twice"):
+        read_field(path, "joint_states", "position", "a")
 
 
 def test_a_damaged_recording_says_so(tmp_path: Path) -> None:

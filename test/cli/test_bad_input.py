@@ -1,7 +1,7 @@
 """Bad input: one line that says what is wrong and what is valid, status 2, nothing left behind."""
 
 import pytest
-from command import forked_fpt, fpt
+from command import forked_fpt
 
 CASES = [
     (["simulate", "tor"], "no experiment 'tor': there are cart_beam_hamper, "),
@@ -64,7 +64,7 @@ def test_one_line_and_status_2(tmp_path, arguments, complaint):
 @pytest.mark.parametrize("command", ["simulate", "run"])
 def test_existing_directory_is_not_touched(tmp_path, command):
     (tmp_path / "bag").mkdir()
-    done = fpt(command, "tora", "--record", "bag", cwd=tmp_path)
+    done = forked_fpt(command, "tora", "--record", "bag", cwd=tmp_path)
     assert done.returncode == 2
     assert "--record bag exists" in done.stderr
     assert list((tmp_path / "bag").iterdir()) == []
@@ -89,7 +89,7 @@ def test_bad_parameter_files(tmp_path, text, complaint):
 
 def test_not_a_recording(tmp_path):
     (tmp_path / "notes.mcap").write_text("hello")
-    done = fpt("info", "notes.mcap", cwd=tmp_path)
+    done = forked_fpt("info", "notes.mcap", cwd=tmp_path)
     assert done.returncode == 2
     assert "notes.mcap" in done.stderr
     assert len(done.stderr.strip().splitlines()) == 1

@@ -4,6 +4,7 @@ import json
 
 import numpy as np
 import pytest
+import zstandard
 from command import forked_fpt as fpt
 from command import forked_fpt_json as fpt_json
 
@@ -49,6 +50,11 @@ def test_a_field_of_a_recording(tmp_path):
     rows, named = (path.read_text().splitlines() for path in (out, tmp_path / "named.csv"))
     assert named[0] == "time,joint_states.position.q3,healed,estimate"
     assert named[1:] == rows[1:]
+    file = bag.with_name("bag_0.mcap.zstd")
+    file.write_bytes(zstandard.compress((bag / "bag_0.mcap").read_bytes()))
+    for way in (file, bag / "metadata.yaml"):
+        again = fpt_json("denoise", way, *by_name, "--time", "header.stamp", "--out", out)
+        assert again["samples"] == 1000
     absent = fpt("denoise", bag, *by_name[:-1], "q9", "--out", out)
     assert absent.returncode == 2
     assert "q1, q2, q3" in absent.stderr

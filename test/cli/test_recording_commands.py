@@ -7,7 +7,8 @@ from pathlib import Path
 
 import pandas as pd
 import pytest
-from command import fpt, fpt_json
+from command import forked_fpt as fpt
+from command import forked_fpt_json as fpt_json
 
 sys.path.append(str(Path(__file__).parents[1] / "bags"))
 

@@ -11,7 +11,7 @@ import numpy as np
 import pandas
 import psutil
 import pytest
-from command import BIN, forked_fpt, forked_fpt_json, fpt, fpt_json
+from command import BIN, forked_fpt, forked_fpt_json
 
 GRID = ("--grid", "fpt_deformer.A=-0.1:-4:{}")
 
@@ -52,7 +52,7 @@ def begin(directory, count):
 
 def go_on(directory, count):
     grid = [part.format(count) for part in GRID]
-    return fpt_json("sweep", "tora", *grid, "--duration", 4, "--out", directory)
+    return forked_fpt_json("sweep", "tora", *grid, "--duration", 4, "--out", directory)
 
 
 @pytest.mark.parametrize("how", [signal.SIGKILL, signal.SIGINT])
@@ -80,7 +80,7 @@ def test_goes_on_where_it_was_ended(tmp_path, how):
 
 def test_tables_and_maps_and_the_same_bits_as_simulate(tmp_path):
     directory = tmp_path / "s"
-    result = fpt_json(
+    result = forked_fpt_json(
         *("sweep", "tora", "--grid", "fpt_deformer.A=-0.7,-3.3,1", "--duration", 6, "--workers", 1),
         *("--grid", "trajectory_generator.lambda=5:6:2", "--out", directory),
     )
@@ -114,13 +114,13 @@ def test_tables_and_maps_and_the_same_bits_as_simulate(tmp_path):
 
 def test_onset_and_basin(tmp_path):
     """The onset lies where the thesis has it: -3.125 is quiet, -4.2 chatters (config/tora.*)."""
-    result = fpt_json(
+    result = forked_fpt_json(
         "sweep", "tora", "--grid", "fpt_deformer.A=-3:-4.2:5", "--out", tmp_path / "a"
     )
     quiet, loud = result["onset_of_chattering"]
     assert -3.125 >= quiet > loud >= -4.2
     axes = [f"plant_simulator.initial_position[{i}]=-1.6:1.6:3" for i in (0, 1)]
-    result = fpt_json(
+    result = forked_fpt_json(
         *("sweep", "tora", "--grid", axes[0], "--grid", axes[1], "--duration", 1, "--workers", 1),
         *("--out", tmp_path / "b"),
     )
@@ -159,10 +159,10 @@ def test_folders_of_others(tmp_path):
     (tmp_path / "full").mkdir()
     (tmp_path / "full" / "notes").write_text("mine")
     grid = ["--grid", "fpt_deformer.A=-1:-2:2", "--duration", 0.1, "--workers", 1]
-    done = fpt("sweep", "tora", *grid, "--out", tmp_path / "full")
+    done = forked_fpt("sweep", "tora", *grid, "--out", tmp_path / "full")
     assert (done.returncode, "holds other files" in done.stderr) == (2, True)
-    fpt_json("sweep", "tora", *grid, "--out", tmp_path / "s")
-    done = fpt("sweep", "tora", "--variant", "strong", *grid, "--out", tmp_path / "s")
+    forked_fpt_json("sweep", "tora", *grid, "--out", tmp_path / "s")
+    done = forked_fpt("sweep", "tora", "--variant", "strong", *grid, "--out", tmp_path / "s")
     assert done.returncode == 2
     assert "is of another sweep: its variant is adaptive, not strong" in done.stderr
 
@@ -170,7 +170,7 @@ def test_folders_of_others(tmp_path):
 def test_tune_tells_how_its_overlay_is_used(tmp_path):
     """The command that it ends with gives the run that was found, and its recording says so."""
     arguments = ("tune", "tora", "--over", "fpt_deformer.A", "--limit", "chatter=0.02")
-    result = fpt_json(*arguments, "--trials", 15, "--duration", 6, cwd=tmp_path)
+    result = forked_fpt_json(*arguments, "--trials", 15, "--duration", 6, cwd=tmp_path)
     assert [path.name for path in tmp_path.iterdir()] == ["tora.tuned.yaml"]
     assert result["metrics"]["chatter"]["after"] <= 0.02
     settled = result["metrics"]["rms_settled.q3"]
@@ -184,7 +184,7 @@ def test_tune_tells_how_its_overlay_is_used(tmp_path):
     assert (there["experiment"], there["variant"]) == ("tora", "tora.tuned")
     found = result["parameters"]["fpt_deformer.A"]["after"]
     assert there["parameters"]["fpt_deformer"]["A"] == found
-    done = fpt(*arguments, "--variant", "tora.tuned.yaml", "--trials", 1, cwd=tmp_path)
+    done = forked_fpt(*arguments, "--variant", "tora.tuned.yaml", "--trials", 1, cwd=tmp_path)
     assert done.stdout.splitlines()[-1].split(":")[1].strip() == result["use"]
 
 
@@ -192,7 +192,7 @@ def test_a_sweep_over_an_overlay_file(tmp_path):
     overlay = tmp_path / "soft.yaml"
     overlay.write_text("/**/trajectory_generator:\n  ros__parameters: {lambda: 4.0}\n")
     grid = ["--grid", "fpt_deformer.A=-1:-2:2", "--duration", 5, "--workers", 1]
-    result = fpt_json("sweep", "tora", "--variant", "soft.yaml", *grid, cwd=tmp_path)
+    result = forked_fpt_json("sweep", "tora", "--variant", "soft.yaml", *grid, cwd=tmp_path)
     assert result["variant"] == "soft"
     table = pandas.read_csv(tmp_path / "tora-sweep" / "runs.csv")
     words = ["--set", "fpt_deformer.A=-2", "--duration", 5]

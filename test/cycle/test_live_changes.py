@@ -74,7 +74,7 @@ def test_what_may_not_change_in_flight_is_refused_with_what_may():
     assert "exact.m" in message
     assert "seed" not in message
     stages().plant.configure({"dt": 0.001})  # the value that it has
-    with pytest.raises(BadInput, match=r"cannot change while the loop runs, only none$"):
+    with pytest.raises(BadInput, match=r"cannot change while the loop runs, only healing.limit$"):
         stages().denoiser.configure({"method": "wavelet"})
 
 

@@ -1,13 +1,19 @@
 """An arm in the loop: the engine compiled, as Python, and stage by stage have the same bits."""
 
+import subprocess
+import sys
+from hashlib import sha256
+from pathlib import Path
+
 import numpy as np
 import pytest
 
 from fpt_ros.cycle.run import Run
 from fpt_ros.engine.engine import Engine
 from fpt_ros.experiments import experiment
+from fpt_ros.plants.mujoco.description_file import ARMS
 
-pytest.importorskip("mujoco")
+mujoco = pytest.importorskip("mujoco")
 
 PICKED_UP = ("plant_simulator.exact.tool_from=0.1",)
 PUSHED = (
@@ -31,7 +37,15 @@ def bytes_of(topics):
 
 @pytest.mark.parametrize(
     ("variant", "settings"),
-    [("adaptive", (*PICKED_UP, *PUSHED)), ("pd_gravity", ()), ("time_delay", ()), ("delayed", ())],
+    [
+        ("adaptive", (*PICKED_UP, *PUSHED)),
+        ("pd_gravity", ()),
+        ("time_delay", ()),
+        ("delayed", ()),
+        ("state_observer", ()),
+        ("super_twisting", ()),
+        ("slotine_li", ()),
+    ],
 )
 def test_the_same_bits_in_every_way(variant, settings):
     compiled = Engine(loaded(variant, settings).loop())
@@ -48,6 +62,43 @@ def test_the_same_bits_in_every_way(variant, settings):
             expected = np.array(getattr(frame, vector))
             assert numbers[at].tobytes() == expected.tobytes(), (topic.name, vector, at)
     assert set(count.values()) == {300}
+
+
+def whole_run():
+    """20 s of an arm without a tool: what is measured, and the efforts that were asked for."""
+    settings = ("plant_simulator.exact.tool=0.0",)
+    engine = Engine(experiment.load("panda", "adaptive", settings, 20.0, None).loop())
+    engine.run()
+    topics = engine.topics()
+    return topics["joint_states"].vectors, topics["command"].vectors["effort"]
+
+
+def digest():
+    measured, effort = whole_run()
+    return sha256(b"".join(each.tobytes() for each in (*measured.values(), effort))).hexdigest()
+
+
+def test_twenty_thousand_steps_are_those_of_the_bindings_and_of_a_second_process():
+    measured, effort = whole_run()
+    model = mujoco.MjModel.from_xml_path(str(ARMS / "panda.xml"))
+    data = mujoco.MjData(model)
+    data.qpos[:] = measured["position"][0]
+    positions = np.empty_like(measured["position"])
+    for k, asked in enumerate(effort):
+        positions[k] = data.qpos
+        data.qfrc_applied[:] = asked
+        mujoco.mj_step(model, data)
+    assert len(positions) == 20_000
+    assert positions.tobytes() == measured["position"].tobytes()
+    program = "from test_arms import digest; print(digest())"
+    ran = subprocess.run(
+        [sys.executable, "-c", program],
+        capture_output=True,
+        text=True,
+        cwd=Path(__file__).parent,
+        check=True,
+    )
+    assert ran.stdout.strip() == digest()
 
 
 def test_no_address_stands_among_the_parameters():

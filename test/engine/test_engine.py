@@ -5,26 +5,13 @@ from collections.abc import Callable
 
 import numpy as np
 import pytest
-from engine_runs import stage_by_stage
 from frames_collected import Collector
+from whole_loops import CYCLES, assert_engine_equals_stages, assert_identical, finished, load
 
 from fpt_ros.engine import compiled
 from fpt_ros.engine import engine as engine_module
-from fpt_ros.engine.engine import Engine
-from fpt_ros.errors import Diverged
 from fpt_ros.experiments import experiment
 from fpt_ros.runs.chunks import frames
-
-CYCLES = 400
-
-SHORTENED = {
-    "coupled_masses": {
-        "fpt_deformer": {"adaptive_from": 0.1},
-        "parameter_tuner": {"tune_from": 0.15},
-    },
-    "swing": {"trajectory_generator": {"time_sharing": [0.01, 0.0055]}},
-}
-"""What makes a short run pass through all that a long one does."""
 
 ARMS = ("iiwa", "panda", "ur5e")
 """One variant stands for all: test_arms.py has the others of panda."""
@@ -75,59 +62,6 @@ SPECIAL = {
         ("fpt_deformer.initial_response=[1.0, -1.0]",),
     ),
 }
-
-
-def load(name, variant, settings=(), cycles=CYCLES, seed=3):
-    """An experiment of at most ``cycles`` cycles that passes through everything."""
-    loaded = experiment.load(name, variant, settings, seed=seed)
-    for node, values in SHORTENED.get(name, {}).items():
-        known = {key: value for key, value in values.items() if key in loaded.nodes[node]}
-        loaded = loaded.with_values(node, **known)
-    plant = loaded.nodes["plant_simulator"]
-    duration = min(plant["duration"], cycles * plant["dt"])
-    return loaded.with_values("plant_simulator", duration=duration)
-
-
-def finished(loop, compile_laws=True):
-    """Topics of an engine's run, and what ended it."""
-    engine = Engine(loop, compile_laws)
-    error = None
-    try:
-        engine.run()
-    except Diverged as caught:
-        error = str(caught)
-    return engine, error
-
-
-def bits(matrix):
-    return np.ascontiguousarray(matrix).view(np.uint64)
-
-
-def assert_identical(found, expected):
-    """NaN is NaN whatever its payload; of all other numbers every bit counts."""
-    assert list(found) == list(expected)
-    for topic, series in expected.items():
-        ours = found[topic]
-        assert ours.names == series.names, topic
-        assert np.array_equal(ours.stamps, series.stamps), topic
-        assert list(ours.vectors) == list(series.vectors), topic
-        for vector, numbers in series.vectors.items():
-            same = bits(ours.vectors[vector]) == bits(numbers)
-            both_nan = np.isnan(ours.vectors[vector]) & np.isnan(numbers)
-            wrong = np.argwhere(~(same | both_nan))
-            assert wrong.size == 0, (topic, vector, wrong[0], len(wrong))
-
-
-def assert_engine_equals_stages(loaded):
-    engine, ended = finished(loaded.loop())
-    collector, error = Collector(), None
-    try:
-        stage_by_stage(loaded.loop(), collector)
-    except Diverged as caught:
-        error = str(caught)
-    assert ended == error
-    assert_identical(engine.topics(), collector.topics())
-    return engine
 
 
 @pytest.mark.parametrize(("name", "variant"), EVERY)
@@ -247,70 +181,3 @@ def test_frames_are_the_topics():
         for topic, frame in frames(engine.topics()):
             collector(topic, frame)
         assert_identical(collector.topics(), engine.topics())
-
-
-def test_what_ends_a_run_leaves_the_cycles_before_it():
-    class Stop(Exception):
-        pass
-
-    engine = Engine(load("vdp_rfpt", "adaptive", cycles=20_000).loop())
-
-    def progress(cycle):
-        if cycle:
-            raise Stop
-
-    with pytest.raises(Stop):
-        engine.run(progress)
-    done = engine.done
-    assert 0 < done < engine.cycles
-    assert len(engine.topics()["command"].stamps) == done
-    whole, _ = finished(load("vdp_rfpt", "adaptive", cycles=20_000).loop())
-    kept = engine.topics()["command"].vectors["effort"]
-    assert np.array_equal(kept, whole.topics()["command"].vectors["effort"][:done])
-
-
-def test_a_run_ended_by_progress_goes_on_where_it_was():
-    loaded = load("tora_auto", "adaptive", cycles=20_000)
-    engine = Engine(loaded.loop())
-    told = []
-
-    def progress(cycle):
-        told.append(cycle)
-        if len(told) == 2:
-            raise KeyboardInterrupt
-
-    with pytest.raises(KeyboardInterrupt):
-        engine.run(progress)
-    engine.run()
-    assert_identical(engine.topics(), finished(loaded.loop())[0].topics())
-
-
-@pytest.mark.parametrize(
-    ("name", "settings", "cycle"),
-    [
-        ("tora", ("plant_simulator.limit.acceleration=1e-3",), 0),
-        ("tora", ("fpt_deformer.guard=false", "fpt_deformer.A=-4"), 1),
-        ("tora", ("fpt_deformer.A=0.1",), 411),
-        ("vdp_modified", ("plant_simulator.initial_position=[100.0]",), None),
-    ],
-)
-def test_a_cycle_that_fails_is_told_as_the_stages_tell_it(name, settings, cycle):
-    """In the first cycle, in the second, and late; only the remedy in brackets may differ."""
-    loaded = experiment.load(name, settings=settings)
-    engine = Engine(loaded.loop())
-    with pytest.raises(Diverged) as ours:
-        engine.run()
-    collector = Collector()
-    with pytest.raises(Diverged) as theirs:
-        stage_by_stage(loaded.loop(), collector)
-    assert str(ours.value).split(" (")[0] == str(theirs.value).split(" (")[0]
-    assert ours.value.cycle == theirs.value.cycle
-    if cycle is not None:
-        assert ours.value.cycle == cycle
-    # a command that was given is in the arrays, also where the plant did not survive it
-    expected = collector.topics().get("command")
-    found = engine.topics()["command"]
-    if expected is None:
-        assert len(found.stamps) == 0
-    else:
-        assert_identical({"command": found}, {"command": expected})

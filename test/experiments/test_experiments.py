@@ -37,7 +37,7 @@ def test_the_base_file_is_complete_and_typed():
 
 def test_available_lists_the_base_first():
     found = experiment.available()
-    assert found["tora"] == ["adaptive", "chatter", "guarded", "nonadaptive", "strong"]
+    assert found["tora"] == ["adaptive", "chatter", "guarded", "nonadaptive", "rotation", "strong"]
     assert found["vdp_rfpt"][0] == "adaptive"
     assert set(found["vdp_rfpt"]) == {
         "adaptive", "no_rfpt", "fixed_model", "fixed_model_no_rfpt", "undisturbed"
@@ -112,7 +112,7 @@ def test_a_value_that_a_node_has_of_its_own_is_set_there(own):
 
 def test_a_shared_value_cannot_be_set_through_a_node_that_does_not_know_it():
     message = refused("vdp_rfpt", settings=["plant_simulator.approximate.m=8"])
-    assert message.startswith("plant_simulator has no parameter 'approximate.m': it has await_rec")
+    assert message.startswith("plant_simulator has no parameter 'approximate.m': it has actuators")
 
 
 def test_a_file_of_ones_own(own):

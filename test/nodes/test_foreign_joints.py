@@ -9,6 +9,7 @@ import rclpy
 from command import BIN
 from rclpy.context import Context
 from rclpy.executors import SingleThreadedExecutor
+from stranger import kinds
 
 from fpt_ros.cycle.run import Run
 from fpt_ros.experiments.experiment import load
@@ -79,7 +80,7 @@ def node_of(stage, file):
         yield peer
     finally:
         process.terminate()
-        process.communicate(timeout=20)
+        peer.said = process.communicate(timeout=20)[0]
         peer.executor.shutdown()
         peer.node.destroy_node()
         context.try_shutdown()
@@ -147,3 +148,38 @@ def turned_where_given(frame):
     )
     empty = {field: () for field in frame._fields[2:] if not len(getattr(frame, field))}
     return turned(given)._replace(**empty)
+
+
+UNUSABLE = (
+    "nan", "infinite", "huge", "short", "long", "without numbers", "empty", "unknown joint",
+    "named twice", "4 bytes", "5 bytes", "12 bytes", "60 bytes", "2000 bytes", "cut",
+)  # fmt: skip
+
+
+def test_what_cannot_be_used_is_named_and_ignored_also_from_the_right_sender(tmp_path):
+    """Bad content before each good message: the numbers stay those of the engine."""
+    loaded = load("tora", duration=5e-3)
+    file = tmp_path / "parameters.yaml"
+    loaded.for_graph(realtime=False).write(file)
+    loop = loaded.loop()
+    frames = list(Run(loop).frames())
+    expected = [frame for topic, frame in frames if topic is loop.deformer.output]
+    with node_of(loop.deformer, file) as peer:
+        for answer in expected:
+            for topic, frame in frames:
+                if topic in peer.publishers and frame.stamp == answer.stamp:
+                    wrong = kinds(topic, frame.stamp)
+                    for name in UNUSABLE:
+                        peer.publishers[topic].publish(wrong[name])
+                    peer.send(topic, frame)
+            assert same(peer.answer(answer.stamp), answer), f"at {answer.stamp} ns"
+    for text in (
+        "state_estimate: positions of q1 is nan",
+        "desired: positions of q3 is inf",
+        "state_estimate: positions of q1 is 1e+300",
+        "positions holds 1 numbers for 3 joints",
+        "the joint 'q1' is not there, only wheel, gripper, q9",
+        "the joint 'q1' is named twice",
+        "bytes are not a trajectory_msgs/msg/JointTrajectory",
+    ):
+        assert text in peer.said, text

@@ -3,7 +3,8 @@
 import signal
 
 import numpy as np
-from command import fpt_json, start_fpt
+from command import forked_fpt_json as fpt_json
+from command import start_fpt
 from engine_runs import stage_by_stage
 from frames_collected import Collector
 from mcap_ros2.reader import read_ros2_messages

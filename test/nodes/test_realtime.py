@@ -1,6 +1,6 @@
 """The graph on the wall clock."""
 
-from command import fpt_json
+from command import forked_fpt_json as fpt_json
 from mcap_ros2.reader import read_ros2_messages
 
 from fpt_ros.bags.reader import read_run

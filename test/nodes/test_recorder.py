@@ -2,6 +2,7 @@
 
 import json
 import os
+import random
 import shutil
 import signal
 import subprocess
@@ -9,37 +10,48 @@ import sys
 from pathlib import Path
 
 import pytest
-from command import fpt, fpt_json, start_fpt
+import samples
+from command import forked_fpt as fpt
+from command import forked_fpt_json as fpt_json
+from command import start_fpt
 from test_endings import ended, node_of, under_way
 from watcher import watcher
 
 from fpt_ros.bags.reader import info, read_run
 from fpt_ros.bags.recover import recover
 from fpt_ros.experiments.experiment import load
+from fpt_ros.replay.recorded import Recorded
+from fpt_ros.replay.rerun import rerun
 
 BIN = Path(sys.executable).parent
 
 
-def test_killed_recorder_loses_no_acknowledged_cycle(tmp_path):
+@pytest.mark.parametrize("moment", samples.sample(range(20), 2))
+def test_killed_recorder_loses_no_acknowledged_cycle(tmp_path, moment):
+    """At random moments, some before the first chunk is full."""
+    at = random.Random(moment).uniform(0.02, 1.0)
     process, _ = under_way(tmp_path)
-    with watcher() as graph:
-        until = graph.wait_for_stamp(0.5)
-    node_of(process, "recorder").kill()
+    with watcher() as graph, graph.acknowledgements() as acknowledged:
+        graph.wait_for_stamp(0.2 + at)
+        node_of(process, "recorder").kill()
     ended(process)
-    done = recover(tmp_path / "bag", tmp_path / "recovered")
-    run = read_run(done.directory)
+    run = read_run(recover(tmp_path / "bag", tmp_path / "recovered").directory)
     counts = {name: len(series.stamps) for name, series in run.topics.items()}
     assert max(counts.values()) - min(counts.values()) <= 1
     # the plant is at most as far ahead of what was acknowledged as publishers keep
-    assert min(counts.values()) >= 500 - 64, until
+    assert min(counts.values()) >= round(1000 * (0.2 + at)) - 64
+    assert acknowledged
+    assert min(counts.values()) > round(1000 * max(acknowledged))
     for series in run.topics.values():
         assert series.stamps.tolist() == [k * 1_000_000 for k in range(len(series.stamps))]
+    again = Recorded(tmp_path / "recovered")
+    assert all(found.equal for found in rerun(again).values())
 
 
 @pytest.mark.parametrize("how", ["removed", "full"])
 def test_a_recording_that_ends_does_not_end_the_run(tmp_path, how):
     bag = tmp_path / "bag"
-    process = start_fpt("run", "tora", "--duration", 1, "--record", bag, "--json")
+    process = start_fpt("run", "tora", "--duration", 20, "--record", bag, "--json")
     with watcher() as graph:
         graph.wait_for_stamp(0.05)
         recorder = node_of(process, "recorder")
@@ -58,7 +70,7 @@ def test_a_recording_that_ends_does_not_end_the_run(tmp_path, how):
     result = json.loads(stdout)
     assert result["complete"] is False
     if how == "full":
-        assert 0 < result["cycles"] < 1000
+        assert 0 < result["cycles"] < 20_000
         assert info(bag)["complete"] is False
         # all that was recorded before is there
         assert result["cycles"] - len(read_run(bag).topics["command"].stamps) in (0, 1)

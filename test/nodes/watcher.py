@@ -3,6 +3,7 @@
 from contextlib import contextmanager
 
 import rclpy
+from builtin_interfaces.msg import Time
 from rcl_interfaces.srv import GetParameters, SetParameters
 from rclpy.context import Context
 from rclpy.executors import SingleThreadedExecutor
@@ -34,6 +35,26 @@ class Watcher:
         self.executor.spin_until_future_complete(seen, timeout_sec=PATIENCE)
         self.node.destroy_subscription(subscription)
         assert seen.done(), "the graph did not get there"
+
+    @contextmanager
+    def acknowledgements(self):
+        """Stamps [s] up to which the recorder says that it has recorded, as they come."""
+        stamps, first = [], rclpy.task.Future(executor=self.executor)
+
+        def on_time(time):
+            stamps.append(time.sec + 1e-9 * time.nanosec)
+            if not first.done():
+                first.set_result(True)
+
+        subscription = self.node.create_subscription(Time, "/recorded_until", on_time, loop_qos())
+        self.executor.spin_until_future_complete(first, timeout_sec=PATIENCE)
+        yield stamps
+        while True:  # those that have come and wait
+            before = len(stamps)
+            self.executor.spin_once(timeout_sec=0.1)
+            if len(stamps) == before:
+                break
+        self.node.destroy_subscription(subscription)
 
     def wait_for_next(self):
         """Until a cycle has been completed that began after this call."""

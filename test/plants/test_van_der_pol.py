@@ -33,7 +33,7 @@ def test_effort_is_the_regressor_times_the_coefficients(parameters, q, v, wanted
     theta = van_der_pol.MODEL.coefficients(parameters)
     effort, row = [math.nan], [math.nan] * 6
     van_der_pol.MODEL.effort(theta, [q], [v], [wanted], [0.0], effort)
-    van_der_pol.MODEL.regressor([q], [v], [math.nan], [wanted], row)
+    van_der_pol.MODEL.regressor((), [q], [v], [math.nan], [wanted], row)
     terms = [y * x for y, x in zip(row, theta, strict=True)]
     assert effort[0] == pytest.approx(sum(terms), abs=1e-14 * sum(map(abs, terms)))
 

@@ -6,12 +6,12 @@ from itertools import chain
 
 import pytest
 import samples
-from command import forked_fpt, fpt
+from command import forked_fpt
 
 from fpt_ros.thesis.chapters import chapters
 from fpt_ros.thesis.claim import STATUSES
 
-QUICK = ("3.1.1a", "3.1.1c", "3.2.1a", "3.2.2a", "3.3.1b")
+QUICK = ("3.1.1a", "3.2.1a", "3.2.2a")
 
 
 def asked():
@@ -26,7 +26,7 @@ def made(tmp_path_factory):
     out.mkdir()
     (out / "index.html").write_text("an older page")
     some = [] if samples.whole else [word for name in QUICK for word in ("--claim", name)]
-    done = fpt("reproduce", "--chapter", 3, *some, "--out", out, "--json", timeout=280.0)
+    done = forked_fpt("reproduce", "--chapter", 3, *some, "--out", out, "--json")
     assert done.returncode == 0, done.stderr
     return out, json.loads(done.stdout), done.stderr
 
@@ -45,10 +45,8 @@ def test_every_claim_has_a_verdict_and_a_command(made):
 def test_verdicts_that_the_description_of_the_experiments_gives(made):
     status = {claim["id"]: claim["status"] for claim in made[1]["claims"]}
     assert status["3.1.1a"] == "only if"  # the printed x* is an iteration stopped too early
-    assert status["3.1.1c"] == "no"  # not monotone
     assert status["3.2.1a"] == "no"  # the printed sign diverges
     assert status["3.2.2a"] == "yes"
-    assert status["3.3.1b"] == "only if"  # epsilon decides
 
 
 def test_the_page_is_complete_in_itself(made):

@@ -1,8 +1,8 @@
 """Robot arms from a file, MJCF or URDF: plant and model on the rigid body dynamics of MuJoCo.
 
-``description.py`` reads the file, ``library.py`` finds MuJoCo's C functions, ``plant.py`` and
-``model.py`` are the laws that call them. ``arms/`` holds the descriptions that ship. MuJoCo is an
-extra: ``pip install fpt_ros[robots]``.
+``description_file.py`` reads the file, ``description.py`` makes an arm of it, ``library.py`` finds
+MuJoCo's C functions, ``plant.py`` and ``model.py`` are the laws that call them. ``arms/`` holds the
+descriptions that ship. MuJoCo is an extra: ``pip install fpt_ros[robots]``.
 
 Coordinates are the joints that turn or slide, in the order of the file; those that are not named in
 ``joints`` are fixed where the file has them. A file's actuators, contacts, key frames and sensors

@@ -1,17 +1,16 @@
 """From a description file to MuJoCo's model of the arm, fixed at its base."""
 
 import math
+import warnings
 from copy import copy
 from functools import lru_cache
 from pathlib import Path
 from typing import Any, NamedTuple
-from xml.etree import ElementTree
 
 from fpt_ros.errors import BadInput
 from fpt_ros.parameters import Parameter, Values, number, numbers, word, words
+from fpt_ros.plants.mujoco.description_file import followers, locate, named, read, reason
 from fpt_ros.plants.mujoco.library import bindings
-
-ARMS = Path(__file__).parent / "arms"
 
 FILE = Parameter(
     "file", "MJCF or URDF file, or the name of an arm that ships", kind="str", live=False
@@ -50,12 +49,12 @@ class Arm(NamedTuple):
 
 
 def arm(values: Values, prefix: str) -> Arm:
-    """The arm that checked parameters describe; ``prefix`` is what messages call them.
+    """The arm that checked parameters describe; ``prefix`` is what messages call them, if anything.
 
     Raises:
         BadInput: the file cannot be read or does not fit, or there is no such joint or flange.
     """
-    path = _locate(word(values, "file"), prefix)
+    path = locate(word(values, "file"), f"{prefix}.file: ")
     position = numbers(values, "tool_position")
     if len(position) != 3:
         raise BadInput(f"{prefix}.tool_position: {len(position)} numbers given, 3 needed (x, y, z)")
@@ -75,23 +74,6 @@ def arm(values: Values, prefix: str) -> Arm:
     )
 
 
-def shipped() -> tuple[str, ...]:
-    """Names of the arms that ship."""
-    return tuple(sorted(path.stem for path in ARMS.glob("*.xml")))
-
-
-def _locate(file: str, prefix: str) -> Path:
-    if file in shipped():
-        return ARMS / f"{file}.xml"
-    path = Path(file).expanduser()
-    if not path.is_file():
-        raise BadInput(
-            f"{prefix}.file: there is no file '{file}', and no arm of this name ships: "
-            f"{', '.join(shipped())}"
-        )
-    return path.resolve()
-
-
 @lru_cache(maxsize=64)
 def _compiled(
     path: Path,
@@ -104,15 +86,17 @@ def _compiled(
     tool: tuple[float, ...],
 ) -> Arm:
     mujoco = bindings()
-    where = f"{prefix}.file: {path}"
-    spec = _read(path, where)
+    where = f"{prefix}.file: {path}" if prefix else str(path)
+    spec = read(path, where)
     chosen, limits = _reduce(spec, joints, where, prefix)
     spec.compiler.fusestatic = False
     body = _add_tool(spec, chosen, flange, prefix)
     try:
-        bare = spec.compile()
+        with warnings.catch_warnings():  # of what is outdated in somebody's file
+            warnings.simplefilter("ignore")
+            bare = spec.compile()
     except ValueError as error:
-        raise BadInput(f"{where} {_reason(error)}") from error
+        raise BadInput(f"{where} {reason(error)}") from error
     bare.body_mass[:] *= scale
     bare.body_inertia[:] *= scale
     bare.dof_armature[:] *= scale * armature
@@ -138,37 +122,20 @@ def _compiled(
     return Arm(bare, loaded, names, turns, tuple(ranges), tuple(limits[name] for name in names))
 
 
-def _read(path: Path, where: str) -> Any:
-    """The file as MuJoCo's MjSpec.
-
-    Of a URDF, shapes are left out: their meshes are often not there, and inertia is given.
-    """
-    mujoco = bindings()
-    try:
-        root = ElementTree.parse(path).getroot()
-        if root.tag == "robot":
-            for link in root.iter("link"):
-                for shape in [*link.findall("visual"), *link.findall("collision")]:
-                    link.remove(shape)
-            return mujoco.MjSpec.from_string(ElementTree.tostring(root, encoding="unicode"))
-        if root.tag != "mujoco":
-            raise BadInput(f"{where} is neither MJCF nor URDF: it begins with <{root.tag}>")
-        return mujoco.MjSpec.from_file(str(path))
-    except ElementTree.ParseError as error:
-        raise BadInput(f"{where} is not XML: {error}") from error
-    except (OSError, ValueError) as error:
-        raise BadInput(f"{where} cannot be read: {_reason(error)}") from error
-
-
 def _reduce(
     spec: Any, joints: tuple[str, ...], where: str, prefix: str
 ) -> tuple[list[Any], dict[str, float]]:
     """Keep the joints that are moved, and nothing that acts on them; their limits of effort."""
     mujoco = bindings()
     kinds = mujoco.mjtJoint
-    single = []
-    for i, joint in enumerate(spec.joints):
-        joint.name = joint.name or f"joint{i + 1}"
+    single, follows = [], followers(spec)
+    for joint in named(spec):
+        leader = follows.get(joint.name)
+        if leader and (joint.name in joints or not joints):
+            raise BadInput(
+                f"{where}: joint '{joint.name}' follows '{leader}' and cannot be moved by itself: "
+                "name those that are moved in 'joints', the others are fixed"
+            )
         if joint.type in (kinds.mjJNT_HINGE, kinds.mjJNT_SLIDE):
             single.append(joint)
         elif joint.name in joints or not joints:
@@ -193,8 +160,11 @@ def _reduce(
     gone = {joint.name for joint in fixed}
     for each in list(spec.equalities):
         couples = each.type == mujoco.mjtEq.mjEQ_JOINT
-        if couples and {each.name1, each.name2} & gone:
+        of_tendons = fixed and each.type == mujoco.mjtEq.mjEQ_TENDON
+        if of_tendons or (couples and {each.name1, each.name2} & gone):
             spec.delete(each)
+    for tendon in list(spec.tendons) if fixed else ():
+        spec.delete(tendon)
     for joint in fixed:
         spec.delete(joint)
     return moved, limits
@@ -230,13 +200,3 @@ def _add_tool(spec: Any, moved: list[Any], flange: str, prefix: str) -> str:
     tool = body.add_body(name=name, pos=position, quat=turn)
     tool.mass, tool.inertia, tool.explicitinertial = 0.0, [0.0, 0.0, 0.0], True
     return name
-
-
-def _reason(error: Exception) -> str:
-    """What is wrong, in one line."""
-    lines = [line.strip() for line in str(error).splitlines() if line.strip()]
-    text = "; ".join(lines[:2]).removeprefix("Error: ")
-    if "mass and inertia" in text:
-        place = lines[1].removeprefix("Element name ") if len(lines) > 1 else ""
-        return f"lacks mass or inertia of a moving body: {place}"
-    return text

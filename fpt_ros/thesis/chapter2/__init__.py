@@ -1,6 +1,7 @@
 """Chapter 2: model based adaptive control and its tuning, and RFPT beside them."""
 
 from fpt_ros.thesis.chapter2 import (
+    s2_1_pseudo_inverses,
     s2_2_1_classical_tuning,
     s2_2_2_disturbed,
     s2_2_2_modified_tuning,
@@ -26,4 +27,5 @@ CLAIMS = (
     *s2_5_2_warm_start.CLAIMS,
     *s2_5_1_inner_iteration.CLAIMS,
     *s2_6_statement.CLAIMS,
+    *s2_1_pseudo_inverses.CLAIMS,
 )

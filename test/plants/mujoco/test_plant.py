@@ -11,7 +11,7 @@ import pytest
 
 from fpt_ros.parameters import resolve
 from fpt_ros.plants import PLANTS
-from fpt_ros.plants.mujoco.description import ARMS
+from fpt_ros.plants.mujoco.description_file import ARMS
 
 mujoco = pytest.importorskip("mujoco")
 

@@ -1,0 +1,62 @@
+"""The recording of a replay: the run with new answers of one node in the place of the old ones."""
+
+from pathlib import Path
+from types import TracebackType
+from typing import Self
+
+from fpt_ros.bags import changes
+from fpt_ros.bags.writer import BagWriter
+from fpt_ros.messages.cdr import Codec
+from fpt_ros.messages.frames import Frame
+from fpt_ros.messages.topics import DEPTH, LOOP_TOPICS, Topic
+from fpt_ros.replay.recorded import Cycle
+from fpt_ros.replay.replayed import Replay
+
+
+class ReplayWriter:
+    """Writes it, cycle by cycle, as a recording that every command reads. A context."""
+
+    def __init__(self, directory: Path, replay: Replay) -> None:
+        """Create the directory.
+
+        Raises:
+            BadInput: it exists or cannot be created.
+        """
+        recorded = replay.recorded
+        ended = ("complete", "reason", "missing")
+        info = {key: value for key, value in recorded.info.items() if key not in ended}
+        self._writer = BagWriter(directory, replay.parameters, {**info, "replayed": replay.node})
+        self._prefix, self._reason = recorded.prefix, recorded.info["reason"]
+        others = [change for change in recorded.changes if change.node != replay.node]
+        self._changes = sorted([*others, *replay.changes], key=lambda change: change.stamp)
+        self._codecs = {topic.name: Codec(topic) for topic in LOOP_TOPICS}
+
+    def add(self, cycle: Cycle, topic: Topic, answer: Frame | None) -> None:
+        """A cycle, with the node's answer on its topic."""
+        while self._changes and self._changes[0].stamp <= cycle.stamp:
+            change = self._changes.pop(0)
+            name = f"{self._prefix}/{changes.TOPIC}"
+            data = changes.encode(change, f"{self._prefix}/{change.node}")
+            self._writer.write(name, changes.TYPE, change.stamp, data)
+        for each in LOOP_TOPICS:
+            data_ = cycle.messages.get(each.name)
+            if each is topic:
+                data_ = None if answer is None else self._codecs[topic.name].encode(answer)
+            if data_ is not None:
+                name = f"{self._prefix}/{each.name}"
+                self._writer.add_topic(name, each.type, DEPTH)
+                self._writer.write(name, each.type, cycle.stamp, data_)
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None:
+        if error is not None:
+            self._writer.__exit__(kind, error, trace)
+        else:
+            self._writer.close(self._reason)

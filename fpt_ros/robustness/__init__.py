@@ -1,0 +1,1 @@
+"""How much a loop bears: the protocol of RealAIGym, on any experiment."""

@@ -1,0 +1,69 @@
+"""Graphs over DDS, with changes in flight, run again from their recordings alone."""
+
+import signal
+
+import pytest
+import samples
+from command import fpt, fpt_json, start_fpt
+from watcher import watcher
+
+from fpt_ros.cli.replayed import settings_of
+from fpt_ros.replay.recorded import Recorded
+from fpt_ros.replay.replayed import Replay
+from fpt_ros.replay.rerun import rerun
+
+LONG = 1000
+
+CHANGES = {
+    "cart_beam_hamper": ("fpt_deformer", "A", 2e-8, "strong", 0.01),
+    "noisy_tora": ("fpt_deformer", "A", -0.15, float("nan"), 0.1),
+    "tora": ("fpt_deformer", "A", -0.2, float("inf"), 0.1),
+    "vdp_rfpt": ("parameter_tuner", "alpha", 1.5, float("nan"), 0.1),
+}
+"""Node, parameter, a good value, a bad one, and the time [s] at which they are set."""
+
+
+def recorded_with_changes(bag, name, *options):
+    """A run in which a gain is changed and a value refused; the cycle of the change."""
+    node, parameter, good, bad, when = CHANGES[name]
+    process = start_fpt("run", name, "--duration", LONG, "--record", bag, *options)
+    with watcher() as graph:
+        graph.wait_for_stamp(when)
+        assert graph.set_parameter(node, parameter, good) == (True, "")
+        assert not graph.set_parameter(node, parameter, bad)[0]
+        graph.wait_for_next()
+    process.send_signal(signal.SIGINT)
+    stderr = process.communicate(timeout=60)[1]
+    assert process.returncode == 130, stderr
+    recorded = Recorded(bag)
+    (change,) = recorded.changes
+    assert change.values == {parameter: good}
+    return recorded, change.stamp // recorded.cycle_time
+
+
+@pytest.mark.parametrize("name", samples.sample(sorted(CHANGES), 1))
+def test_every_node_and_the_whole_run_are_equal_to_the_last_bit(tmp_path, name):
+    recorded, cycle = recorded_with_changes(tmp_path / "bag", name)
+    assert len(recorded.nodes) >= 4
+    for node in recorded.nodes:
+        found = Replay(recorded, node).run()
+        assert found.first is None, node
+        assert found.cycles > cycle
+    (whole,) = rerun(recorded).values()
+    assert whole.first is None
+    assert whole.cycles > cycle
+    node, parameter, good, _, _ = CHANGES[name]
+    without = Replay(recorded, node, settings_of(node, [f"{parameter}={good}"])).run()
+    assert without.first is not None  # the change was not in force from the start
+    assert 0 < without.first.cycle < cycle
+
+
+@pytest.mark.parametrize("options", [("--realtime",), ("--realtime", "--composed")])
+def test_a_run_in_real_time_node_by_node(tmp_path, options):
+    common = ("vdp_rfpt", "--duration", 0.5, *options)
+    done = fpt("run", *common, "--record", tmp_path / "bag", "--namespace", "r1")
+    assert done.returncode == 0, done.stderr
+    found = fpt_json("rerun", tmp_path / "bag")
+    assert found["equal"] is True
+    assert sorted(found["parts"]) == sorted(Recorded(tmp_path / "bag").nodes)
+    assert all(part["cycles"] > 10 for part in found["parts"].values())
