@@ -34,7 +34,11 @@ PARAMETERS = (
     Parameter("sigma", "standard deviation of the position noise", 1e-3, above=0.0),
     Parameter("wavelet", "orthogonal wavelet", "sym4", choices=WAVELETS),
     Parameter(
-        "window", "samples of the window, a power of 2", 256, minimum=16, maximum=LONGEST_WINDOW,
+        "window",
+        "samples of the window, a power of 2",
+        256,
+        minimum=16,
+        maximum=LONGEST_WINDOW,
         live=False,
     ),
     Parameter("level", "levels of the transform", 3, minimum=1, maximum=8, live=False),

@@ -59,7 +59,9 @@ def ratios(rate, sigma, motion):
 
     known = LSB / math.sqrt(12) if sigma == LSB else sigma
     single = [  # h = (density dt^7 / sigma^2)^(1/8)
-        errors(KALMAN_BANK, states=[4.0], sigma=known, gate=1e9, densities=[h**8 * known**2 / dt**7])
+        errors(
+            KALMAN_BANK, states=[4.0], sigma=known, gate=1e9, densities=[(h**8 * known**2) / dt**7]
+        )
         for h in np.geomspace(5e-3, 3.6, 12)
     ]
     return errors(ADAPTIVE_KALMAN) / np.min(single, axis=0)
