@@ -69,8 +69,6 @@ BEYOND = 4.0
 """A sample is suspect beyond so many times the greatest innovation seen of late."""
 UNHEARD = 10.0
 """Beyond so many times of that limit three samples in a row make a jump, else two."""
-GROWTH = 4.0
-"""By which one jump of the motion raises that limit at most."""
 SETTLING = 50.0
 """First samples, of which none is kept back."""
 LONGEST_GAP = 1000
@@ -179,8 +177,6 @@ def is_kept_back(
         return True
     state[first + _HELD] = 0.0
     if far and held > 0.0:
-        if nearest > GROWTH * limit:
-            nearest = GROWTH * limit
         k = _HEADER
         for m in range(x, x + members):
             e = state[m + 6 * members]
