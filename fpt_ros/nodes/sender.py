@@ -67,9 +67,9 @@ class Sender:
 
     def _complaint(self, gid: bytes) -> str:
         about = self._about(gid)
-        who = (
+        who = (  # who has just come has no name yet
             "somebody else"
-            if about is None
+            if about is None or "UNKNOWN" in about.node_name
             else f"{about.node_namespace.rstrip('/')}/{about.node_name}"
         )
         return (
