@@ -14,14 +14,17 @@ from fpt_ros.compensators import COMPENSATORS
 from fpt_ros.cycle.approximate_model import MODEL
 from fpt_ros.cycle.deformer_parameters import PARAMETERS as DEFORMER
 from fpt_ros.cycle.denoiser import METHOD, SYNCHRONISED
+from fpt_ros.cycle.healing import PARAMETERS as HEALING
 from fpt_ros.cycle.parameter_tuner import PARAMETERS as TUNER
 from fpt_ros.cycle.parameter_tuner import TUNE_FROM
 from fpt_ros.cycle.plant_simulator import STRUCTURE
 from fpt_ros.cycle.stage import CYCLE_TIME, JOINTS, REALTIME
+from fpt_ros.cycle.suffered import KINDS
 from fpt_ros.cycle.trajectory_generator import PARAMETERS as TRAJECTORY
 from fpt_ros.denoising.streaming import FILTERS, ORDER
 from fpt_ros.disturbances import DISTURBANCES
 from fpt_ros.experiments import description
+from fpt_ros.integrators import INTEGRATORS
 from fpt_ros.parameters import Parameter, prefixed
 from fpt_ros.plants import MODELS, PLANTS, Factory
 from fpt_ros.registry import Kind
@@ -86,8 +89,14 @@ def page() -> str:
         parts.append(table(prefixed("exact", plant.parameters)))
     for name in DISTURBANCES.names():
         parts += own(f"disturbance.kind: {name}", DISTURBANCES[name].parameters, "disturbance")
+    for name in INTEGRATORS.names():
+        parts += own(f"integrator.kind: {name}", INTEGRATORS[name].parameters, "integrator")
+    for where, kinds in KINDS.items():
+        for name in kinds.names():
+            own_parameters = kinds[name].parameters
+            parts += own(f"{where}.kinds: [{name}]", own_parameters, f"{where}.{name}")
     parts += ["## denoiser\n", words("method", FILTERS)]
-    parts += [table((METHOD, ORDER, SYNCHRONISED, REALTIME, CYCLE_TIME, JOINTS))]
+    parts += [table((METHOD, ORDER, SYNCHRONISED, *HEALING, REALTIME, CYCLE_TIME, JOINTS))]
     for name in FILTERS.names():
         parts += own(f"method: {name}", FILTERS[name].parameters)
     parts += ["## trajectory_generator\n", words("trajectory", TRAJECTORIES)]

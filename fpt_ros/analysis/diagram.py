@@ -156,7 +156,7 @@ def svg(experiment: Experiment) -> str:
     parts = []
     tuner = loop.tuner.active
     width = 2 * MARGIN + top * WIDTH + (top - 1) * GAP + (GAP if tuner else 0)
-    height = 3 * MARGIN + 40 + 2 * HEIGHT + 90 + (HEIGHT if tuner else 0)
+    height = 3 * MARGIN + 40 + 2 * HEIGHT + 90 + (HEIGHT + 50 if tuner else 0)
     for (block, _), place in zip(around, places, strict=True):
         parts += _box(block, *_corner(place))
     for i, (_, arrow) in enumerate(around):

@@ -35,11 +35,11 @@ PLACES = {
 """Of each topic the places of the vectors in its frame, and whether they have to be numbers."""
 
 
-def check_content(who: str, topic: Topic, frame: Frame) -> None:
+def check_content(who: str, topic: Topic, frame: Frame, gaps: bool = False) -> None:
     """Raise BadInput, which begins with ``who``, where a number of a frame cannot be used.
 
     The norm of a vector shows at once that all is well, as it mostly is. An effort may be as large
-    as it likes: it is the plant's to say so.
+    as it likes: it is the plant's to say so. ``gaps``: samples may be lost, NaN stands for them.
     """
     if frame[0] < 0:
         raise BadInput(f"{who}: the stamp, {frame[0]} ns, is less than 0")
@@ -52,6 +52,7 @@ def check_content(who: str, topic: Topic, frame: Frame) -> None:
         if len(vector) != len(names):
             raise BadInput(f"{who}: {field} holds {len(vector)} numbers for {len(names)} names")
         for name, value in zip(names, vector, strict=True):
-            absent = math.isnan(value) and not needed
+            may_lack = not needed or (gaps and topic is JOINT_STATES)
+            absent = math.isnan(value) and may_lack
             if not (absent or abs(value) < limit):
                 raise BadInput(f"{who}: {field} of {name} is {value:g}, not a usable number")

@@ -174,6 +174,11 @@ class Denoiser(Stage):
         command = (Input(COMMAND, lag=1),) if self.synchronised else ()
         return (Input(JOINT_STATES), *command)
 
+    @property
+    def heals(self) -> bool:
+        """Whether lost samples are healed, or left to the filter."""
+        return word(self.values, HEALING.name) != "none"
+
     def admit(self, topic: Topic, frame: Frame) -> Frame:
         """As of any stage; and a measurement without velocity needs a filter that finds it.
 
@@ -182,10 +187,9 @@ class Denoiser(Stage):
         """
         frame = super().admit(topic, frame)
         if isinstance(frame, JointStates) and self._needs_velocity:
-            heals = word(self.values, HEALING.name) != "none"
             motions = zip(frame.names, frame.position, frame.velocity, strict=True)
             for name, position, velocity in motions:
-                if math.isnan(velocity) and not (heals and math.isnan(position)):
+                if math.isnan(velocity) and not (self.heals and math.isnan(position)):
                     raise BadInput(
                         f"{self.name}, joint_states: there is no velocity of {name}, and "
                         f"{self.name}.method none takes what is measured: finite_difference finds "

@@ -4,6 +4,7 @@ In the place of such a sample the filter is shown where the motion must be by no
 in the cycle before, moved on by its own response. The response that comes out is not an answer of
 the plant, so it is published as unknown (NaN), for as long as the sample is doubtful and ``pause``
 cycles more: the deformation and the tuning learn nothing then, and go on from where they were.
+``filter`` leaves the gap to a filter that goes on without samples.
 """
 
 import math
@@ -17,7 +18,7 @@ HEALING = Parameter(
     "what stands for a sample that is lost; not given, predict where the plant's sensors are "
     "disturbed",
     "none",
-    choices=("none", "hold", "predict"),
+    choices=("none", "hold", "predict", "filter"),
     live=False,
 )
 
@@ -40,7 +41,7 @@ PARAMETERS = (
         live=False,
     ),
     Parameter(
-        "healing.pause", "cycles after a healed sample without learning", 2, minimum=0, live=False
+        "healing.pause", "cycles after a healed sample without learning", 0, minimum=0, live=False
     ),
 )
 
@@ -52,10 +53,14 @@ ROWS = 6
 
 
 class HealingConstants(NamedTuple):
-    """Fixed: whether anything is healed, whether predicted or held, and the parameters."""
+    """Fixed: whether anything is healed, and how, and the parameters.
+
+    ``predicts``: moved on, not held; ``fills``: shown to the filter, not left to it as missing.
+    """
 
     heals: int
     predicts: int
+    fills: int
     limit: float
     most: float
     pause: float
@@ -67,7 +72,8 @@ def constants_of(values: Values) -> HealingConstants:
     kind = word(values, HEALING.name)
     return HealingConstants(
         heals=int(kind != "none"),
-        predicts=int(kind == "predict"),
+        predicts=int(kind != "hold"),
+        fills=int(kind != "filter"),
         limit=number(values, "healing.limit"),
         most=float(integer(values, "healing.most")),
         pause=float(integer(values, "healing.pause")),
@@ -109,7 +115,9 @@ def heal(
             lost = lost or abs(q[i] - expected_q) > constants.limit
         if lost:
             out_q[i], out_v[i] = expected_q, math.nan
-            if memory[HAS_VELOCITY, i] > 0.0:
+            if not constants.fills:
+                out_q[i] = math.nan
+            elif memory[HAS_VELOCITY, i] > 0.0:
                 out_v[i] = expected_v
             memory[IN_A_ROW, i] += 1.0
             memory[DOUBT, i] = constants.pause + 1.0

@@ -112,6 +112,11 @@ class Stage(ABC):
         """
 
     @property
+    def heals(self) -> bool:
+        """Whether it goes on where samples are lost."""
+        return False
+
+    @property
     def inputs(self) -> tuple[Input, ...]:
         """Topics that each step needs, in the order of the step's arguments."""
         return ()
@@ -128,7 +133,7 @@ class Stage(ABC):
         if entrance is not None:
             frame = entrance.take(frame)
         if topic is not DESIRED:
-            check_content(who, topic, frame)
+            check_content(who, topic, frame, self.heals)
         return frame
 
     def report(self) -> dict[str, object]:

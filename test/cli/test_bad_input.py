@@ -48,6 +48,7 @@ CASES = [
     (["frobnicate"], "No such command 'frobnicate'"),
     (["info", "no_bag"], "no_bag"),
     (["report", "no_bag"], "no_bag"),
+    (["report", "no_bag", "--format", "gif"], "--format gif: it has to be one of svg, pdf, png"),
 ]
 
 

@@ -93,16 +93,17 @@ def _arbitrary(runs: Runs) -> Verdict:
     better = sum(x < printed for x in errors)
     spread = max(kept, default=np.inf) / min(kept, default=np.inf)
     return Verdict(
-        YES if spread > 2.0 or len(kept) < len(errors) else NO,
+        YES if spread > 2.0 or len(kept) < len(errors) else ONLY_IF if spread > 1.2 else NO,
         {
             "rms error, printed R and Q": printed,
             "rms error, best draw": min(kept, default=np.inf),
             "rms error, worst draw that is not lost": max(kept, default=np.inf),
             "draws that are lost": float(len(errors) - len(kept)),
         },
-        f"Of {len(errors)} random pairs of R and Q, all of which Lyapunov's theorem allows, "
-        f"{better} are better than the printed ones, and the settled error differs by a factor of "
-        f"{spread:.3g}: nothing in the method says which to take.",
+        f"Only if it is meant that nothing says which to take: of {len(errors)} random pairs of R "
+        f"and Q, all of which Lyapunov's theorem allows, {better} are better than the printed "
+        "ones; but over a factor of 100 of their eigenvalues the settled error differs by "
+        f"{spread:.3g} only.",
     )
 
 

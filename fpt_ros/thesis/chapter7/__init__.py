@@ -1,13 +1,15 @@
-"""Chapter 7, the conclusions: noise and delay that the feedback brings into the loop."""
+"""Chapter 7, the conclusions: noise, delay and loss in the loop."""
 
 from fpt_ros.thesis.chapter7 import (
     delay,
+    loss,
     noise,
 )
 
-TITLE = "Conclusions: noise and delay in the loop"
+TITLE = "Conclusions: noise, delay and loss in the loop"
 
 CLAIMS = (
     *noise.CLAIMS,
     *delay.CLAIMS,
+    *loss.CLAIMS,
 )
