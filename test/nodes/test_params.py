@@ -16,6 +16,7 @@ def test_parameters_of_a_running_graph(tmp_path):
     process = start_fpt("run", "tora", "--duration", 1000)
     with watcher() as graph:
         graph.wait_for_stamp(0.1)
+        forked_fpt("pause")  # some of what follows would lose the plant
         assert ask("get", "fpt_deformer", "A").stdout == "fpt_deformer.A = -0.1\n"
         assert "fpt_deformer.A\n" in ask("list").stdout
         assert "live" in ask("describe", "fpt_deformer", "A").stdout
