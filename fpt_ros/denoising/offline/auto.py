@@ -86,8 +86,14 @@ def part(
             np.array([member.name == library.UNCHANGED for member in last]) * 1.0,
             y,
         )
-    impulses = present - judge.noise.inlier(y - estimate, present)
-    estimate = np.where(doubts.bursts(impulses), y, estimate)
+    if not varies:  # where the noise changes, its profile is late, and noise looks like a burst
+        impulses = present - judge.noise.inlier(y - estimate, present)
+        estimate = np.where(doubts.bursts(impulses), y, estimate)
+    if not np.isfinite(estimate).all():  # a record of two levels, with no noise to weigh by
+        weight, estimate = (
+            np.array([member.name == library.UNCHANGED for member in last]) * 1.0,
+            y,
+        )
     return Part(
         np.asarray(estimate + offset),
         beginning,
