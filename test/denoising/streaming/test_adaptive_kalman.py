@@ -8,14 +8,10 @@ import pytest
 from filter_runs import bang_bang, constants_of, noise, rms, run, two_sines
 
 from fpt_ros.denoising.streaming import Update
-from fpt_ros.denoising.streaming.adaptive_kalman import (
-    _LSB,
-    _SIGMA,
-    ADAPTIVE_KALMAN,
-    innovation_gain,
-    weight_of,
-)
+from fpt_ros.denoising.streaming.adaptive_kalman import ADAPTIVE_KALMAN
 from fpt_ros.denoising.streaming.kalman_bank import KALMAN_BANK, steady_gains
+from fpt_ros.denoising.streaming.ladder import LSB as LSB_PLACE
+from fpt_ros.denoising.streaming.ladder import SIGMA, innovation_gain, weight_of
 from fpt_ros.engine import compiled
 from fpt_ros.errors import BadInput
 
@@ -88,12 +84,12 @@ def test_innovation_in_white_noise():
 @pytest.mark.parametrize("sigma", [1e-6, 1e-2])
 def test_sigma_is_found(sigma):
     q = two_sines(5000)[0] + noise(5000, 4, sigma)
-    assert ended(q)[1][_SIGMA] == pytest.approx(sigma, rel=0.25)
+    assert ended(q)[1][SIGMA] == pytest.approx(sigma, rel=0.25)
 
 
 def test_the_step_of_an_encoder_is_found():
     q = np.round(two_sines(5000)[0] / LSB) * LSB
-    assert ended(q)[1][_LSB] == pytest.approx(LSB, rel=1e-9)
+    assert ended(q)[1][LSB_PLACE] == pytest.approx(LSB, rel=1e-9)
 
 
 def test_impulses_are_kept_back():
