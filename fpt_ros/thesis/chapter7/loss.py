@@ -56,7 +56,8 @@ def _copes(runs: Runs) -> Verdict:
         "Only if gaps are short beside the motion, r is held in them, and what is learnt behind "
         "one is the mean response in it: with half of all samples lost the error is "
         f"{half['predicted']:.3g} times that of the whole signal ({half['held']:.3g} where the "
-        f"last sample is held), with bursts of 100 ms twice a second {long['predicted']:.3g} times.",
+        "last sample is held), with bursts of 100 ms twice a second "
+        f"{long['predicted']:.3g} times.",
         Table(("loop", *COLUMNS), rows),
     )
 
