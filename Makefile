@@ -29,7 +29,7 @@ endif
 NEEDS_demo := ros,analysis
 NEEDS_test := ros,test
 NEEDS_lint := ros,test,lint
-NEEDS_docs := ros,thesis,sweep,export,docs
+NEEDS_docs := ros,analysis,thesis,sweep,export,docs
 NEEDS_bench := ros,test,bench
 NEEDS_setup := ros,test,lint,docs
 
@@ -75,7 +75,7 @@ same-bits: $(VENV)/.test
 	@$(BIN)/python test/same_bits $(REV) $(OPTIONS)
 
 bench: $(VENV)/.bench
-	@for each in engine robots long streaming sweep start graph realtime recorder recordings; do $(BIN)/python benchmarks/$$each.py || exit 1; done
+	@for each in engine robots long streaming sweep start graph realtime recorder recordings report; do $(BIN)/python benchmarks/$$each.py || exit 1; done
 
 lint: $(VENV)/.lint
 	@$(BIN)/ruff check .

@@ -15,6 +15,7 @@ OFFLINE = ["scikit-fuzzy", "pyarrow", "matplotlib"]
 CLUSTER = ["dask", "distributed"]
 PEERS = ["scikit-image", "statsmodels"]
 ROBOTS = ["mujoco>=3.3"]
+DESCRIPTIONS = ["gymnasium", "jvrc-description"]  # robots of others, for tests
 ORACLE = ["pin>=3"]  # Pinocchio: what tests and benchmarks of arms compare with
 SWEEP = ["optuna>=5", "pyarrow", "matplotlib"]
 # Jazzy for machines without it: wheels of the real thing (x86-64 Linux, CPython 3.10 to 3.14)
@@ -52,7 +53,7 @@ EXTRAS = {
         "websockets",  # drives a browser
         "setuptools<80",
         "wheel",
-        *sorted({*FIGURES, *OFFLINE, *SWEEP, *CLUSTER, *PEERS, *ROBOTS, *ORACLE}),
+        *sorted({*DESCRIPTIONS, *FIGURES, *OFFLINE, *SWEEP, *CLUSTER, *PEERS, *ROBOTS, *ORACLE}),
     ],
     "lint": ["ruff", "mypy", "pre-commit"],
     "docs": ["sphinx", "furo", "myst-parser"],

@@ -69,7 +69,7 @@ def measure(count: int, workers: int) -> Measured:
         for future in [pool.submit(run_chunk, sweep.job, [0] * 20) for _ in range(4 * workers)]:
             future.result()
         directory = Path(folder) / "sweep"
-        open_directory(sweep, directory)
+        open_directory(sweep.definition, directory)
         before, own, started = times(pool), process_time(), perf_counter()
         run(sweep, directory, pool, lambda done, lost: None).close()
         took, master = perf_counter() - started, process_time() - own

@@ -3,6 +3,7 @@
 They are written to ``docs/reference/``, out of version control, before Sphinx reads its sources.
 """
 
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
@@ -74,14 +75,22 @@ def write_pages() -> None:
             _write(path, f"# {title}\n\nThis guide is not written yet: see `fpt {name} --help`.\n")
 
 
+def _all_commands(group: Any, context: Any, before: str = "") -> Iterator[tuple[str, Any, Any]]:
+    """Name, command and context of each, those of a group behind it."""
+    for name in group.list_commands(context):
+        command = group.get_command(context, name)
+        inner = typer.Context(command, info_name=name, parent=context)
+        yield f"{before}{name}", command, inner
+        if hasattr(command, "list_commands"):
+            yield from _all_commands(command, inner, f"{before}{name} ")
+
+
 def commands() -> str:
     """The page of all commands."""
     root = get_command(app)
     context = typer.Context(root, info_name="fpt")
     parts = ["# Commands\n", f"{root.help}\n", "Each command explains itself with `--help`.\n"]
-    for name in root.list_commands(context):  # type: ignore[attr-defined]
-        command = root.get_command(context, name)  # type: ignore[attr-defined]
-        inner = typer.Context(command, info_name=name, parent=context)
+    for name, command, inner in _all_commands(root, context):
         usage = " ".join(command.collect_usage_pieces(inner))
         parts.append(f"## fpt {name}\n\n```text\nfpt {name} {usage}\n```\n")
         for paragraph in command.help.split("\n\n"):

@@ -62,6 +62,7 @@ def test_simulate_runs_and_records_without_the_extras(tmp_path, experiment):
     [
         ("analysis", "jinja2", ("report", "nothing")),
         ("analysis", "matplotlib", ("demo",)),
+        ("analysis", "bokeh", ("report", "nothing")),
         ("analysis", "matplotlib", ("gain", "tora", "--plot", "gain.png")),
         ("sweep", "pyarrow", ("sweep", "tora", "--grid", "fpt_deformer.A=-1:-2:2")),
         ("sweep", "optuna", ("tune", "tora", "--over", "fpt_deformer.A")),

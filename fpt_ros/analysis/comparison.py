@@ -11,7 +11,7 @@ TRACKING = ("rms_settled", "max_settled", "rms")
 """Quantities of ``tracking`` that :func:`comparison` lists, the most telling first."""
 
 PERFORMANCE = ("iae", "ise", "itae", "rise_time", "settling_time", "overshoot_percent")
-"""Those that only a report has."""
+"""Those of ``performance``, which only a report has."""
 
 REAL_TIME = ("missed_deadlines", "latency_median_ms", "latency_p99_ms", "latency_max_ms")
 """Quantities of ``real_time`` that :func:`comparison` lists."""
@@ -57,12 +57,15 @@ def comparison(summaries: Sequence[Summary]) -> list[Row]:
     rows = []
     tracked = _names(summaries, "tracking")
     for name in dict.fromkeys([*tracked, *_names(summaries, "effort")]):
-        for key in (*TRACKING, *PERFORMANCE) if name in tracked else ():
-            values = [_entry(s, "tracking", name, key) for s in summaries]
-            if key in TRACKING or any(value is not None for value in values):
-                rows.append(_row(summaries, name, key, values))
-        for key, part in (("effort", "rms"), ("energy", "energy")):
-            efforts = [_entry(s, "effort", name, part) for s in summaries]
+        for key in TRACKING if name in tracked else ():
+            errors = [_entry(s, "tracking", name, key) for s in summaries]
+            rows.append(_row(summaries, name, key, errors))
+        for key in PERFORMANCE:
+            numbers = [_entry(s, "performance", name, key) for s in summaries]
+            if any(number is not None for number in numbers):
+                rows.append(_row(summaries, name, key, numbers))
+        for key, part, inner in (("effort", "effort", "rms"), ("energy", "performance", "energy")):
+            efforts = [_entry(s, part, name, inner) for s in summaries]
             if any(efforts):  # a force that is zero by construction says nothing
                 rows.append(_row(summaries, name, key, efforts))
     chatter = [cast("float | None", s.get("chatter")) for s in summaries]
@@ -84,7 +87,7 @@ def _names(summaries: Sequence[Summary], part: str) -> list[str]:
 
 
 def _part(one: Summary, part: str) -> Mapping[str, Mapping[str, float | None]]:
-    return cast("Mapping[str, Mapping[str, float | None]]", one[part])
+    return cast("Mapping[str, Mapping[str, float | None]]", one.get(part) or {})
 
 
 def _entry(one: Summary, part: str, name: str, key: str) -> float | None:

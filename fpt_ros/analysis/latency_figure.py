@@ -5,7 +5,8 @@ from collections.abc import Sequence
 import numpy as np
 
 from fpt_ros.analysis import signals, style
-from fpt_ros.analysis.panels import Bars, Mark, Panel, Panels
+from fpt_ros.analysis.panel import Bars, Mark, Panel
+from fpt_ros.analysis.panels import Panels
 from fpt_ros.runs.latency import Latencies
 from fpt_ros.runs.run import Run
 

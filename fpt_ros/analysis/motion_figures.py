@@ -7,7 +7,8 @@ import numpy as np
 from fpt_ros.analysis import motions, signals, style
 from fpt_ros.analysis.labels import all_names, colour_of, run_labels
 from fpt_ros.analysis.outline import POSITION, outline
-from fpt_ros.analysis.panels import Mark, Panels
+from fpt_ros.analysis.panel import Mark
+from fpt_ros.analysis.panels import Panels
 from fpt_ros.runs.run import Run
 
 

@@ -8,7 +8,7 @@ import numpy as np
 from fpt_ros.analysis import motions, signals
 from fpt_ros.analysis.metrics import Summary, summary
 from fpt_ros.analysis.motions import Motion, Motions
-from fpt_ros.analysis.performance import Performance, joined
+from fpt_ros.analysis.performance import Performance
 from fpt_ros.analysis.sizes import Size
 from fpt_ros.analysis.spectra import Spectra, Spectrum
 from fpt_ros.analysis.thinner import CAPACITY, Thinned, Thinner, Window
@@ -119,7 +119,8 @@ def with_numbers(run: Run) -> Outline:
         return run
     performance = Performance(run.parameters)
     performance.take(ordered(run.topics))
-    return replace(outline(run), numbers=joined(summary(run), performance.result()))
+    numbers = {**summary(run), "performance": performance.result()}
+    return replace(outline(run), numbers=numbers)
 
 
 class Outliner:

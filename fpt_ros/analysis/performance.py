@@ -11,7 +11,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fpt_ros.analysis import signals
-from fpt_ros.analysis.metrics import Summary
 from fpt_ros.analysis.motions import Motion, Motions
 from fpt_ros.analysis.sizes import finite
 from fpt_ros.messages.frames import SECOND
@@ -35,8 +34,8 @@ PER_OCTAVE = 64
 LOWEST, HIGHEST = -1075, 1025
 """Powers of two of all doubles."""
 
-Numbers = Mapping[str, Mapping[str, Mapping[str, float | None]]]
-"""``tracking`` and ``effort``: coordinate -> quantity -> number."""
+Numbers = Mapping[str, Mapping[str, float | None]]
+"""Coordinate -> quantity -> number."""
 
 
 class Performance:
@@ -78,7 +77,7 @@ class Performance:
     def result(self) -> Numbers:
         """The run's numbers, once it has ended; ``None`` for what does not exist.
 
-        ``tracking`` holds for each controlled coordinate, e = q^N - q being its error:
+        Of each controlled coordinate, e = q^N - q being its error:
 
         - ``iae``, ``ise``, ``itae``: sums of abs(e), e^2 and t abs(e) over all cycles, times dt;
         - ``settling_time`` [s]: from when on abs(e) stays within 2 percent of its largest size,
@@ -87,24 +86,14 @@ class Performance:
           cycle, and ``overshoot_percent``: its largest size on the other side, in percent of
           that; neither exists for a run that begins inside the band.
 
-        ``effort`` holds ``energy``: the sum of abs(Q v) over all cycles, times dt.
+        Of each measured coordinate ``energy``: the sum of abs(Q v) over all cycles, times dt.
         """
         self._pieces.finish()
         dt = self._dt if self._dt is not None else math.nan
-        return {
-            "tracking": {name: error.result(dt) for name, error in self._errors.items()},
-            "effort": {name: {"energy": finite(sum_ * dt)} for name, sum_ in self._work.items()},
-        }
-
-
-def joined(summary: Summary, numbers: Numbers) -> Summary:
-    """A summary with these numbers beside its own of the same coordinates."""
-    both = dict(summary)
-    for part in ("tracking", "effort"):
-        own = summary[part]
-        assert isinstance(own, Mapping)
-        both[part] = {name: {**each, **numbers[part].get(name, {})} for name, each in own.items()}
-    return both
+        found = {name: error.result(dt) for name, error in self._errors.items()}
+        for name, sum_ in self._work.items():
+            found[name] = {**found.get(name, {}), "energy": finite(sum_ * dt)}
+        return found
 
 
 class _Error:

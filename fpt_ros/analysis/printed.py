@@ -11,7 +11,8 @@ from matplotlib.legend_handler import HandlerTuple
 from matplotlib.ticker import FormatStrFormatter, LogLocator, MaxNLocator, NullFormatter
 
 from fpt_ros.analysis import style
-from fpt_ros.analysis.panels import Panel, Panels
+from fpt_ros.analysis.panel import Panel
+from fpt_ros.analysis.panels import Panels
 
 SHADE = "#f3f4f6"
 

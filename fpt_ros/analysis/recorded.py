@@ -5,7 +5,7 @@ from pathlib import Path
 
 from fpt_ros.analysis.metrics import Metrics, Summary
 from fpt_ros.analysis.outline import Outline, Outliner
-from fpt_ros.analysis.performance import Performance, joined
+from fpt_ros.analysis.performance import Performance
 from fpt_ros.bags.reader import play
 from fpt_ros.parameters import Values
 from fpt_ros.runs.chunks import Consumer
@@ -44,5 +44,5 @@ def read_outline(path: Path) -> Outline:
 
     run = play(path, make)
     metrics, performance, outliner = made[0]
-    numbers = joined(metrics.result(run.info, run.latency), performance.result())
-    return outliner.result(run, numbers)
+    numbers = metrics.result(run.info, run.latency)
+    return outliner.result(run, {**numbers, "performance": performance.result()})

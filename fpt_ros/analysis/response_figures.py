@@ -16,7 +16,8 @@ from fpt_ros.analysis.outline import (
     Outline,
     outline,
 )
-from fpt_ros.analysis.panels import Mark, Panels
+from fpt_ros.analysis.panel import Mark
+from fpt_ros.analysis.panels import Panels
 from fpt_ros.analysis.thinner import Window
 from fpt_ros.cycle.tuned import FACTOR
 from fpt_ros.runs.run import Array, Run

@@ -33,6 +33,13 @@ Limit = Annotated[
         metavar="STEP", help="Of the efforts' mean step while tuning; default: 10 times the usual."
     ),
 ]
+Hold = Annotated[
+    list[str] | None,
+    typer.Option(
+        metavar="NODE.PARAM,...",
+        help="Not tuned, as trajectory_generator.lambda for one prescription for all.",
+    ),
+]
 Seed = Annotated[int, typer.Option(metavar="S", help="Random seed of noise and search.")]
 Out = Annotated[
     Path | None,
@@ -52,6 +59,7 @@ def compare(
     tune: Tune = False,
     trials: Trials = None,
     limit: Limit = None,
+    hold: Hold = None,
     seed: Seed = 0,
     out: Out = None,
     workers: Workers = None,
@@ -74,8 +82,9 @@ def compare(
     from fpt_ros.sweep.executor import LocalPool, local_workers
 
     local_workers(workers)
-    if trials is not None and not tune:
-        raise BadInput("--trials is of --tune: give both")
+    for option, value in (("--trials", trials), ("--limit", limit), ("--hold", hold)):
+        if value is not None and not tune:
+            raise BadInput(f"{option} is of --tune: give both")
     if trials is not None and trials < 1:
         raise BadInput(f"--trials {trials} is not valid, it takes 1 or more")
     if limit is not None and not 0.0 < limit < float("inf"):
@@ -84,7 +93,15 @@ def compare(
         raise BadInput(f"--seed {seed} is not valid, it takes 0 to {2**31 - 1}")
     budget = (trials or comparisons.TRIALS) if tune else 0
     asked = comparisons.define(
-        name, _words(controllers), _words(variants), set_ or (), duration, budget, seed, limit
+        name,
+        _words(controllers),
+        _words(variants),
+        set_ or (),
+        duration,
+        budget,
+        seed,
+        limit,
+        _words(hold),
     )
     directory = out or Path(f"{asked.plan.field.experiment.name}-compare")
     started = perf_counter()

@@ -4,7 +4,7 @@ import sys
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any, NamedTuple
 
 import typer
 
@@ -60,7 +60,15 @@ Derivative = Annotated[
     int, typer.Option(metavar="1|2", help="Also the derivative of the estimate by time.")
 ]
 Compare = Annotated[bool, typer.Option("--compare", help="Run all methods and print the table.")]
+Streaming = Annotated[
+    str | None,
+    typer.Option(
+        metavar="FILTER",
+        help="A filter of the loop instead of a method, sample by sample; with --compare: all.",
+    ),
+]
 
+ALL = "all"
 LONG_TEXT, LONG_RECORD = 20_000_000, 50_000
 """Bytes and samples from which on progress is shown."""
 
@@ -78,6 +86,7 @@ def denoise(
     derivative: Derivative = 0,
     plot: Plot = None,
     compare: Compare = False,
+    streaming: Streaming = None,
     json: Json = False,
 ) -> None:
     """Denoise a signal: a column of a table, or a field of a recording's topic.
@@ -101,6 +110,10 @@ def denoise(
 
     Example: fpt denoise robot.mcap --topic /joint_states --field effort --joint elbow
 
+    Example: fpt denoise encoder.csv --streaming adaptive_kalman --derivative 1
+
+    Example: fpt denoise encoder.csv --streaming all --compare
+
     Example: fpt denoise test:sines,rho=0.5,seed=10 --method improved --plot sines.png
     """
     from fpt_ros.analysis.signal_source import Request
@@ -108,15 +121,49 @@ def denoise(
 
     target, pictures = targets(file, out, plot, compare, json)
     request = Request(file, tuple(column or ()), topic, field, time, joint)
+    filters = _filter_of(streaming, method, compare)
     source = _load(request)
     if compare:
-        _compare(source, json)
+        _compare(source, streaming is not None, json)
         return
     options = _options(set_ or [])
-    found = _estimates(source, method, options, derivative, every="all" in request.columns)
+    how = Wanted(filters or method, filters is not None, options, derivative)
+    found = _estimates(source, how, every="all" in request.columns)
     paths = [picture_path(pictures, one, len(found)) for one in found] if pictures else []
     write(source, found, target, paths)
     _tell(source, found, file, target, paths, json)
+
+
+class Wanted(NamedTuple):
+    """What is to be done with each signal: a method, or a filter sample by sample."""
+
+    name: str
+    streaming: bool
+    options: "dict[str, Value]"
+    derivative: int
+
+
+def _filter_of(streaming: str | None, method: str, compare: bool) -> str | None:
+    """The filter that is asked for, by its registered name.
+
+    Raises:
+        BadInput: there is none of that name, or a method is asked for beside it.
+    """
+    from fpt_ros.denoising.streaming import FILTERS
+    from fpt_ros.errors import BadInput
+
+    if streaming is None:
+        return None
+    if method != "auto":
+        raise BadInput("--method is for whole records, --streaming for the loop: give one of them")
+    if streaming == ALL:
+        if not compare:
+            raise BadInput("--streaming all compares the filters: add --compare, or name one")
+        return None
+    if compare:
+        raise BadInput("--compare runs all filters: --streaming all")
+    FILTERS[streaming]  # refuses an unknown name, and says which there are
+    return streaming
 
 
 def _load(request: "Request") -> "Source":
@@ -145,22 +192,25 @@ def _options(settings: list[str]) -> "dict[str, Value]":
     return options
 
 
-def _estimates(
-    source: "Source", method: str, options: "dict[str, Value]", derivative: int, every: bool
-) -> "list[Estimate]":
+def _estimates(source: "Source", how: Wanted, every: bool) -> "list[Estimate]":
     """The estimates; where all columns are asked for, those that can be had.
 
     Raises:
         BadInput: a signal cannot be denoised, or none of all.
     """
     from fpt_ros.analysis.estimates import estimate
+    from fpt_ros.analysis.filtered import filtered
     from fpt_ros.errors import BadInput
 
     found, refused = [], []
+    name, streaming, options, derivative = how
     for signal in source.signals:
         try:
+            if streaming:
+                found.append(filtered(source, signal, name, options, derivative))
+                continue
             with _working(signal.name, len(source.table)) as progress:
-                found.append(estimate(source, signal, method, options, progress, derivative))
+                found.append(estimate(source, signal, name, options, progress, derivative))
         except BadInput as error:
             if not every:
                 raise
@@ -225,8 +275,9 @@ def _tell(
         summary.say(screen, f"picture: {plot}")
 
 
-def _compare(source: "Source", json: bool) -> None:
+def _compare(source: "Source", streaming: bool, json: bool) -> None:
     from fpt_ros.analysis.compared_methods import compare
+    from fpt_ros.analysis.filtered import compare_filters
     from fpt_ros.cli import denoise_summary as summary
     from fpt_ros.cli.output import console, print_json
     from fpt_ros.errors import BadInput
@@ -234,10 +285,14 @@ def _compare(source: "Source", json: bool) -> None:
     if len(source.signals) > 1:
         raise BadInput("--compare takes one signal: give one --column")
     signal = source.signals[0]
-    rows = compare(source, signal)
+    rows = compare_filters(source, signal) if streaming else compare(source, signal)
     if json:
-        print_json({"signal": signal.name, "samples": len(source.table), "methods": rows})
+        kinds = "filters" if streaming else "methods"
+        print_json({"signal": signal.name, "samples": len(source.table), kinds: rows})
         return
     screen = console()
     summary.print_source(screen, source)
-    summary.print_comparison(screen, source, rows)
+    if streaming:
+        summary.print_filters(screen, source, rows)
+    else:
+        summary.print_comparison(screen, source, rows)

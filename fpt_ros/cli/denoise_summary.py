@@ -124,6 +124,40 @@ def print_comparison(screen: "Console", source: "Source", rows: "Sequence[Row]")
     )
 
 
+def print_filters(screen: "Console", source: "Source", rows: "Sequence[Row]") -> None:
+    """The table of all filters of the loop, the best first."""
+    from rich.markup import escape
+    from rich.table import Table
+
+    from fpt_ros.analysis.estimates import step_of
+
+    unit = step_of(source)[1] or "samples"
+    columns = {
+        "value": "value",
+        "velocity": "velocity",
+        "acceleration": "acceleration",
+        "score": "score",
+        f"delay [{unit}]": "delay",
+    }
+    table = Table(box=None)
+    table.add_column("filter", no_wrap=True)
+    for heading in columns:
+        table.add_column(escape(heading), justify="right")
+    for row in rows:
+        shown = (
+            [str(row["error"])] if "error" in row else [f"{row[k]:.4g}" for k in columns.values()]
+        )
+        table.add_row(str(row["method"]), *map(escape, shown))
+    screen.print(table)
+    known = source.clean is not None
+    truth = "the clean signal" if known else "what auto makes of the whole record"
+    say(
+        screen,
+        f"value, velocity, acceleration: rms difference from {truth}, without the first tenth\n"
+        "score: geometric mean of their ratios to the best of each; all filters at their defaults",
+    )
+
+
 def say(screen: "Console", line: str) -> None:
     """One line as it is: brackets are no markup."""
     screen.print(line, markup=False, soft_wrap=True)

@@ -11,15 +11,18 @@ import typer
 from fpt_ros import extras
 from fpt_ros.cli import (
     compare,
+    control,
     demo,
     denoise,
     diagram,
     diff,
+    doctor,
     export,
     gain,
     info,
     layout,
     listing,
+    params,
     recover,
     replay,
     report,
@@ -66,6 +69,12 @@ COMMANDS: tuple[tuple[str, Callable[..., Any], str], ...] = (
     ("rerun", rerun.rerun, ""),
     ("export", export.export, "export"),
     ("layout", layout.layout, ""),
+    ("doctor", doctor.doctor, ""),
+    ("pause", control.pause, ""),
+    ("resume", control.resume, ""),
+    ("step", control.step, ""),
+    ("stop", control.stop, ""),
+    ("e-stop", control.e_stop, ""),
     ("reproduce", reproduce.reproduce, "thesis"),
     ("demo", demo.demo, "analysis"),
 )
@@ -86,6 +95,9 @@ def _checked(function: Callable[..., Any], extra: str) -> Callable[..., Any]:
 
 for _name, _function, _extra in COMMANDS:
     app.command(_name, help=_function.__doc__)(_checked(_function, _extra))
+
+
+app.add_typer(params.app, name="params")
 
 
 @app.callback(invoke_without_command=True)

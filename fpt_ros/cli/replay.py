@@ -60,7 +60,8 @@ def replay(
         raise BadInput("--set is for a replay in process: a running node has its own parameters")
     if record is not None:
         check_new_directory(record)
-    prepared = Replay(Recorded(bag), node, replayed.settings_of(node, set_ or []))
+    settings = replayed.settings_of(set_ or [], node)
+    prepared = Replay(Recorded(bag).with_settings(settings), node)
     with ExitStack() as stack:
         out = None
         if record is not None:

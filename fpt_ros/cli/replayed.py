@@ -15,21 +15,24 @@ from fpt_ros.replay.compared import Difference, plain
 from fpt_ros.replay.replayed import Outcome
 
 
-def settings_of(node: str, texts: list[str]) -> dict[str, Value]:
-    """``PARAM=VALUE`` of a node, or ``NODE.PARAM=VALUE`` as other commands take it.
+def settings_of(texts: list[str], node: str = "") -> dict[str, dict[str, Value]]:
+    """``NODE.PARAM=VALUE`` by node; of the one that is replayed ``PARAM=VALUE`` is enough.
 
     Raises:
         BadInput: it is something else, or of another node.
     """
-    found: dict[str, Any] = {}
+    found: dict[str, dict[str, Any]] = {}
     for text in texts:
         name, equals, value = text.partition("=")
         of, dot, rest = name.strip().partition(".")
-        if not equals or not name.strip():
-            raise BadInput(f"--set {text}: it takes PARAM=VALUE, as in A=-0.2")
-        if dot and of in STAGES and of != node:
+        if not (dot and of in STAGES):
+            of, rest = node, name.strip()
+        if not (equals and of and rest):
+            takes = "PARAM=VALUE, as in A=-0.2" if node else "NODE.PARAM=VALUE"
+            raise BadInput(f"--set {text}: it takes {takes}")
+        if node and of != node:
             raise BadInput(f"--set {text}: the replay is of {node}, it takes parameters of that")
-        found[rest if of == node and dot else name.strip()] = scalar(value)
+        found.setdefault(of, {})[rest] = scalar(value)
     return found
 
 
@@ -78,7 +81,7 @@ def show(bag: Path, outcomes: Mapping[str, Outcome], record: Path | None, json: 
 
 def _part(one: Outcome) -> dict[str, Any]:
     return {
-        "equal": one.equal,
+        "equal": one.equal if one.cycles else None,
         "cycles": one.cycles,
         "differing": one.differing,
         "first_difference": _difference(one.first),

@@ -123,7 +123,7 @@ def _print(written: "Written", result: dict[str, Any]) -> None:
     if own is None or (plain is not None and own > 0.5 * plain):
         print("the transformation does not help here: try fewer --joints, or less --payload")
     path = written.files[0]
-    screen.print(f"{len(result['files'])} files: {path.parent}", soft_wrap=True)
+    screen.print(f"experiment and variants: {path.parent}", soft_wrap=True)
     screen.print(f"fpt simulate {path}\nfpt compare {path}", soft_wrap=True)
 
 

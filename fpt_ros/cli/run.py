@@ -26,6 +26,10 @@ if TYPE_CHECKING:
 
 Composed = Annotated[bool, typer.Option("--composed", help="The five nodes in one process.")]
 Realtime = Annotated[bool, typer.Option("--realtime", help="On the wall clock, not in lockstep.")]
+Speed = Annotated[
+    float | None,
+    typer.Option(metavar="FACTOR", help="Of the wall clock: 0.1 is a tenth of real time."),
+]
 Split = Annotated[
     str,
     typer.Option(metavar="SIZE|TIME", help="Go on in another file, as after 100MB or 60s."),
@@ -54,6 +58,7 @@ def run(
     record: Record = None,
     composed: Composed = False,
     realtime: Realtime = False,
+    speed: Speed = None,
     namespace: Namespace = "",
     split: Split = "",
     no_plant: NoPlant = False,
@@ -63,8 +68,9 @@ def run(
 ) -> None:
     """Run an experiment as a graph of ROS 2 nodes over DDS, a process each.
 
-    Examples: fpt run tora --record /tmp/tora && fpt report /tmp/tora;
-    fpt run arm.yaml --no-plant --efforts /effort_controller/commands
+    Example: fpt run tora --record /tmp/tora && fpt report /tmp/tora
+
+    A robot: fpt run arm.yaml --no-plant --efforts /effort_controller/commands
     """
     from fpt_ros.bags.split import Split as Parsed
     from fpt_ros.cli.output import print_json, print_result
@@ -74,6 +80,10 @@ def run(
     if split:
         Parsed.parse(split)
         experiment = experiment.with_values(NODE, split=split)
+    if speed is not None:
+        realtime = True
+        experiment = experiment.with_values("plant_simulator", speed=speed)
+        experiment.loop()  # checks it
     _check_namespace(namespace)
     robot = _robot(no_plant, composed, states, efforts, duration)
     if record is not None:

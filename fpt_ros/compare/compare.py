@@ -11,6 +11,7 @@ from fpt_ros.compare.field import field
 from fpt_ros.compare.measures import simulate, whole_of
 from fpt_ros.compare.task import Plan, run_tasks
 from fpt_ros.errors import BadInput, RunFailed
+from fpt_ros.sweep.definition import parameter_of
 from fpt_ros.sweep.directory import open_directory
 from fpt_ros.sweep.executor import Pool
 from fpt_ros.sweep.journal import Journal
@@ -47,19 +48,24 @@ def define(
     trials: int,
     seed: int,
     limit: float | None,
+    hold: Sequence[str] = (),
 ) -> Comparison:
     """Check what is asked for.
 
     Args:
         trials: of the tuning; 0: controllers are as their files say.
         limit: of the mean step of an effort; ``None``: ten times that of the experiment as it is.
+        hold: parameters that are not tuned, ``NODE.PARAM``.
 
     Raises:
         BadInput: it cannot be done.
     """
     whole = field(name, controllers, circumstances, settings, duration)
     allowed = limit if limit is not None else ROOM * _own_step(whole.experiment)
-    plan = Plan(whole, trials, seed, allowed)
+    for name_ in hold:
+        node, _, parameter = name_.partition(".")
+        parameter_of(whole.experiment, node, parameter)
+    plan = Plan(whole, trials, seed, allowed, tuple(hold))
     definition = {
         "experiment": whole.name,
         "controllers": [each.name for each in whole.controllers],
@@ -69,6 +75,7 @@ def define(
         "trials": trials,
         "seed": seed,
         "limit": allowed,
+        "hold": list(hold),
         "parameters": whole.digest(),
         "version": __version__,
     }

@@ -18,6 +18,9 @@ OURS = ("#d55e00", "#e69f00", "#b3401f", "#f0a36b")
 THEIRS = ("#0072b2", "#009e73", "#a6558a", "#56b4e9", "#374151", "#8a9a5b", "#7b68c8", "#b4b8bf")
 """Colours of controllers with a transformation, and of the others."""
 
+FARTHEST = 1e3
+"""Times the limit of the tuning, beyond which chatter is not drawn."""
+
 SHOWN = 8
 """Controllers that have a colour, the best ones."""
 
@@ -150,6 +153,7 @@ def _front(
     axes.axvline(results.asked.plan.limit, color=style.INK, linestyle=(0, (3, 3)), linewidth=0.8)
     axes.set_xscale("log")
     axes.set_yscale("log")
+    axes.set_xlim(right=min(axes.get_xlim()[1], FARTHEST * results.asked.plan.limit))
     axes.set_title(one.name, loc="left")
     axes.set_xlabel(f"mean step of an effort{_effort_unit(results)}")
     axes.set_ylabel(f"settled error, rms{_unit(results)}")

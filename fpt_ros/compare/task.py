@@ -33,12 +33,14 @@ class Plan:
         trials: of the search for good settings; 0: none.
         seed: of the first run that is shown, and of the search.
         limit: of the mean step of an effort, for the search.
+        hold: parameters that the search leaves alone, ``NODE.PARAM``.
     """
 
     field: Field
     trials: int
     seed: int
     limit: float
+    hold: tuple[str, ...] = ()
 
     @property
     def tasks(self) -> list[tuple[Controller, tuple[Circumstance, ...]]]:
@@ -130,7 +132,7 @@ def _tune(plan: Plan, controller: Controller, one: Circumstance) -> dict[str, An
         return None
     settings = (*field.settings, *one.settings, seed)
     whole = variant(controller, one)
-    task = task_of(field.name, whole, settings, field.duration, experiment, plan.limit)
+    task = task_of(field.name, whole, settings, field.duration, experiment, plan.limit, plan.hold)
     if not task.parameters:
         return None
     points: list[tuple[float, float]] = []

@@ -1,11 +1,11 @@
 """What of a controller is tuned: the numbers of its laws, found by themselves."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from typing import cast
 
+from fpt_ros.compare.measures import simulate
 from fpt_ros.experiments.experiment import Experiment
 from fpt_ros.experiments.sections import SECTIONS
-from fpt_ros.parameters import Parameter, Value
 from fpt_ros.sweep.grid import Space, Target, parse
 from fpt_ros.sweep.job import Job
 from fpt_ros.sweep.tune import Task
@@ -15,27 +15,31 @@ from fpt_ros.transformations import TRANSFORMATIONS
 WIDTH = 10.0
 """A parameter is searched from a tenth of what it is to ten times that."""
 
-LAMBDA_WIDTH = 4.0
-"""The rate at which errors decay, from a quarter to four times."""
+FASTER = 4.0
+"""The rate at which errors decay, lambda, is searched up to so many times what it is."""
 
-SHAPE = ("K", "B", "D")
+SHAPE = ("K", "B", "D", "a")
 """Of a transformation: what its gain or scale stands for as well, left as it is."""
 
 ERROR, STEP = "whole.error", "whole.step"
 """What shall be small, and what is limited."""
 
 
-def tuned_parameters(experiment: Experiment) -> tuple[TunedParameter, ...]:
+def tuned_parameters(
+    experiment: Experiment, hold: Sequence[str] = ()
+) -> tuple[TunedParameter, ...]:
     """Gain and scale of the transformation, numbers of compensator and tuner, lambda, and the
-    bandwidth of the filter: those that are not zero.
+    bandwidth of the filter: those that are not zero, and are not held.
     """
-    return tuple(_found(experiment))
+    return tuple(each for each in _found(experiment) if each.target.parameter not in hold)
 
 
 def _found(experiment: Experiment) -> Iterator[TunedParameter]:
     nodes = experiment.nodes
     generator, deformer = nodes["trajectory_generator"], nodes["fpt_deformer"]
-    yield from _one("trajectory_generator", "lambda", generator["lambda"], LAMBDA_WIDTH)
+    rate = cast("float", generator["lambda"])
+    where = Target("trajectory_generator", "lambda")
+    yield TunedParameter(where, rate / WIDTH, rate * FASTER, rate, whole=False)
     kind = TRANSFORMATIONS[str(deformer["transformation"])]
     own = {each.name for each in kind.parameters} - set(SHAPE) if kind.adapts else set()
     own |= {name for name in deformer if name.startswith("compensator.")}
@@ -58,20 +62,11 @@ def _all(node: str, experiment: Experiment, names: set[str]) -> Iterator[TunedPa
     values = experiment.nodes[node]
     for parameter in SECTIONS[node](values):
         if parameter.name in names and parameter.kind == "float" and parameter.live:
-            yield from _one(node, parameter.name, values[parameter.name], WIDTH, parameter)
-
-
-def _one(
-    node: str, name: str, value: Value, width: float, parameter: Parameter | None = None
-) -> Iterator[TunedParameter]:
-    present = float(cast("float", value))
-    if present == 0.0:
-        return
-    low, high = sorted((present / width, present * width))
-    if parameter is not None:
-        low, high = max(low, parameter.minimum), min(high, parameter.maximum)
-    if low < high:
-        yield TunedParameter(Target(node, name), low, high, present, whole=False)
+            present = float(cast("float", values[parameter.name]))
+            low, high = sorted((present / WIDTH, present * WIDTH))
+            low, high = max(low, parameter.minimum), min(high, parameter.maximum)
+            if low < high:
+                yield TunedParameter(Target(node, parameter.name), low, high, present, whole=False)
 
 
 def task_of(
@@ -81,11 +76,10 @@ def task_of(
     duration: float | None,
     experiment: Experiment,
     limit: float,
+    hold: Sequence[str],
 ) -> Task:
     """The search for the least error with efforts that step no more than a limit."""
-    from fpt_ros.compare.measures import simulate
-
-    parameters = tuned_parameters(experiment)
+    parameters = tuned_parameters(experiment, hold)
     axes = tuple(parse(f"{p.target}={p.low!r}:{p.high!r}:2") for p in parameters)
     lists = {
         p.target.parameter: tuple(

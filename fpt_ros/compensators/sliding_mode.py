@@ -31,7 +31,11 @@ def compensate(
     """Add the switching term; s is 0 where a coordinate is not controlled."""
     for i in range(len(out)):
         share = observed.combined[i] / constants[0]
-        out[i] += constants[1 + i] * max(-1.0, min(1.0, share))
+        if share > 1.0:
+            share = 1.0
+        elif share < -1.0:
+            share = -1.0
+        out[i] += constants[1 + i] * share
 
 
 SLIDING_MODE = Compensator(prepare, compensate, parameters=PARAMETERS)

@@ -5,13 +5,13 @@ a constant diagonal inertia::
 
     tau_k = tau_{k-1} + m (r_k - response_k)
 
-It takes the place of the model's effort once a response is known. For m below the true inertia's
-smallest eigenvalue it is stable; an m of the true size is not where joints are coupled.
+It takes the place of the model's effort once a response is known; where one is lost later, the
+effort stays. For m below the true inertia's smallest eigenvalue it is stable; an m of the true size
+is not where joints are coupled.
 """
 
-import math
-
 from fpt_ros.compensators import Compensator, Observed
+from fpt_ros.compensators.incremental import go_on, memory
 from fpt_ros.compensators.inertia import PARAMETERS, inertias
 from fpt_ros.laws import MutableVector, Vector
 from fpt_ros.parameters import Values
@@ -28,8 +28,7 @@ def compensate(
     """The effort of the cycle before, and m times what the response lacks."""
     for i in range(len(out)):
         step = constants[i] * (observed.desired[i] - observed.response[i])
-        if not math.isnan(step):
-            out[i] = observed.effort[i] + step
+        go_on(memory, i, step, observed, out)
 
 
-TIME_DELAY = Compensator(prepare, compensate, parameters=PARAMETERS)
+TIME_DELAY = Compensator(prepare, compensate, memory, PARAMETERS)

@@ -35,10 +35,12 @@ def look_back(
     One that was sent up to ``HELD`` cycles ago came late or was held, because later ones were lost:
     the law goes on from its own last r, which bears that best. Any other was limited.
     """
-    limits, count, turn = constants.limits, int(memory.cycles[0]), 0
-    lapsed = limits.timeout > 0.0 and dt > limits.timeout  # the safe effort has acted meanwhile
+    limits, count = constants.limits, int(memory.cycles[0])
+    lapsed = limits.timeout > 0.0 and dt > limits.timeout
     if count == 0 or lapsed:
         forget(memory, len(work.zeros))
+        for i in range(len(memory.effort)):  # it has acted meanwhile
+            memory.effort[i] = limits.safe[i] if lapsed else 0.0
         return
     if limits.windup == NO_ANTI_WINDUP:
         return

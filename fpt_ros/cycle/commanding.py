@@ -36,7 +36,11 @@ def compensate_effort(
         wanted[i], explained[i] = math.nan, math.nan
     for i in range(len(where)):
         wanted[where[i]] = desired.accelerations[i]
-    if int(memory.cycles[0]) > 1:
+    known = memory.cycles[0] > 1.0
+    for i in range(n):
+        if math.isnan(response[i]):
+            known = False  # a model would take it for no response at all
+    if known:
         effort(
             constants.coefficients,
             memory.position,

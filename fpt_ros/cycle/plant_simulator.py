@@ -71,6 +71,8 @@ STRUCTURE = (
     Parameter("limit.position", "one per coordinate; empty: none", [], above=0.0, live=False),
     Parameter("safe_effort", "what acts when the command is too old", 0.0),
     Parameter("command_timeout", "age at which a command is too old", 0.1, unit="s", above=0.0),
+    Parameter("speed", "of the clock in real time", 1.0, above=0.0),
+    Parameter("step_cycles", "how long the service step goes on", 1, minimum=1, maximum=1_000_000),
     REALTIME,
     Parameter("await_recorder", "do not outrun the recorder", False, live=False),
 )

@@ -103,7 +103,8 @@ class DeformerNode(StageNode):
         (result,) = self.set_parameters([RosParameter(STOPPED.name, value=stopped)])
         if stopped and self._realtime and self._matcher.acted >= 0:
             self._command_safe_effort()  # now, not at the next measurement
-        return bool(result.successful), str(result.reason)
+        done = "the safe effort is commanded" if stopped else "released: the next cycle begins anew"
+        return bool(result.successful), str(result.reason) or done
 
     def _on_e_stop(self, request: Trigger.Request, response: Trigger.Response) -> Trigger.Response:
         response.success, response.message = self._stop(True)

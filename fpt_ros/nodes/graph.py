@@ -258,6 +258,8 @@ class _Graph:
         *lines, self._partial = self._partial.split(b"\n")
         if lines:
             cycle = int(lines[-1])
+            if cycle < 0:  # paused
+                cycle, self._moved = -1 - cycle, asyncio.get_running_loop().time()
             if cycle and self._core is not None:  # all have started, which is quicker on many
                 for child in self._loop:
                     if child.name == ParameterTuner.name:

@@ -96,7 +96,11 @@ class LoopNode(Node):
                 sender.choose(gid)
 
         kind = message_class(ros_type)
-        self.loop_subscriptions.append(self.create_subscription(kind, name, receive, qos, raw=True))
+        self.loop_subscriptions.append(
+            self.create_subscription(
+                kind, name, receive, qos, raw=True, callback_group=self.loop_group
+            )
+        )
 
     def ignore(self, reason: str) -> None:
         """Tell, once a reason, on /rosout and /diagnostics, why a message is not used."""
@@ -134,8 +138,9 @@ class LoopNode(Node):
         if now - since >= DIAGNOSTICS_PERIOD:
             self._publish_diagnostics((self.cycles_done - cycles) / (now - since))
             self._reported = now, self.cycles_done
-            for sender in self._senders:
-                sender.look_whether_gone()
+            if self.newest_counts:  # in lockstep nobody can take another's place
+                for sender in self._senders:
+                    sender.look_whether_gone()
 
     def _publish_diagnostics(self, rate: float) -> None:
         summary, values = self.health()

@@ -7,6 +7,7 @@ command acts, or the safe effort where it is older than ``command_timeout``.
 
 from collections import deque
 from time import monotonic, time_ns
+from typing import Any
 
 from rclpy.duration import Duration
 
@@ -18,6 +19,7 @@ from fpt_ros.messages.topics import COMMAND, DEPTH, JOINT_STATES
 from fpt_ros.nodes.process import report_progress
 from fpt_ros.nodes.qos import heard_qos
 from fpt_ros.nodes.recorded_until import RECORDED_UNTIL, TIME, decode_time
+from fpt_ros.nodes.run_control import RunControl
 from fpt_ros.nodes.stage_node import ParameterisedNode
 from fpt_ros.runs.latency import HISTOGRAM, LARGEST, MISSED, Histogram
 
@@ -48,7 +50,7 @@ class PlantNode(ParameterisedNode):
         self._recorded = -1
         self._stamp = -1
         self._command: Command | None = None
-        self._held_back = False
+        self._held_back = self._over = False
         self._sent_at: deque[float] = deque(maxlen=REMEMBERED)
         self._timed = -1
         self._sent_again = 0.0
@@ -56,6 +58,8 @@ class PlantNode(ParameterisedNode):
         self._misses = 0
         self._latencies: list[float] = []
         self._histogram = Histogram()
+        self._control = RunControl(self, self._step_cycles, self._go_on)
+        self._stands_still = False
         qos = heard_qos(self._realtime)
         self.subscribe_raw(COMMAND.name, COMMAND.type, qos, self._on_command)
         if self._awaits_recorder:
@@ -123,7 +127,7 @@ class PlantNode(ParameterisedNode):
             self._misses += 1
         if late >= self.stage.timeout:
             command = self.stage.safe_command(self._stamp)
-        self._next_tick += self.stage.dt
+        self._next_tick += self.stage.dt / float(self.stage.values["speed"])
         self.deadline = self._next_tick
         self._end_cycle(command)
 
@@ -132,7 +136,8 @@ class PlantNode(ParameterisedNode):
             self.apply_changes(self._stamp)
         self.stage.advance(command, self._stamp - self._origin)
         self._cycle += 1
-        if self._cycle == self.stage.cycles:
+        if self._cycle == self.stage.cycles or self._control.stopped:
+            self._over = True
             self.deadline = None
             report_progress(self._cycle)
             if self._realtime:
@@ -142,7 +147,29 @@ class PlantNode(ParameterisedNode):
         elif self._behind():
             self._held_back = True
         else:
+            self._begin_cycle()
+
+    def _step_cycles(self) -> int:
+        """How long a step goes on; in a pause a change has not taken effect yet."""
+        name = "step_cycles"
+        cycles: Any = self._pending.get(name, self.stage.values[name])
+        return int(cycles)
+
+    def _begin_cycle(self) -> None:
+        """The next cycle, if the run is not paused."""
+        if self._control.may_begin():
             self._publish_cycle()
+        else:
+            self._stands_still, self.deadline = True, None
+
+    def _go_on(self) -> None:
+        """After a pause."""
+        if not self._stands_still:
+            return
+        self._stands_still = False
+        if self._realtime:
+            self._next_tick = self.deadline = monotonic() + self.stage.dt
+        self._begin_cycle()
 
     def _behind(self) -> bool:
         """Whether the recorder has to catch up first."""
@@ -163,18 +190,19 @@ class PlantNode(ParameterisedNode):
             self._start_clock()
         if not self._held_back:
             return True
-        if self._cycle == self.stage.cycles:
+        if self._over:
             self.finished = self._recorded >= self._stamp
         elif not self._behind():
             self._held_back = False
-            self._publish_cycle()
+            self._begin_cycle()
         return True
 
     def housekeeping(self) -> None:
         """Progress; and a plant that comes second does not start."""
         super().housekeeping()
-        report_progress(self._cycle)
-        waits = not (self._realtime or self._held_back or self.finished or not self._sent_at)
+        report_progress(self._cycle, self._stands_still)
+        still = self._held_back or self.finished or self._stands_still
+        waits = bool(self._sent_at) and not (self._realtime or still)
         if waits and monotonic() - max(self._sent_at[-1], self._sent_again) > AGAIN:
             self._sent_again = monotonic()
             self.send_again()  # a message of this cycle may have been lost
@@ -206,6 +234,7 @@ class PlantNode(ParameterisedNode):
             values["latency p99 [ms]"] = f"{1e3 * ordered[int(0.99 * len(ordered))]:.3f}"
             values["latency max [ms]"] = f"{1e3 * ordered[-1]:.3f}"
         mode = "real time" if self._realtime else "lockstep"
+        mode += ", paused" if self._stands_still else ""
         return f"cycle {self._cycle} of {self.stage.cycles}, {mode}", values
 
 

@@ -85,11 +85,11 @@ parameters: ros2 param list /{name}; ros2 param describe /{name} PARAM
 the whole graph at once: fpt run tora"""
 
 
-def report_progress(cycle: int) -> None:
-    """Tell the process that started the graph how many cycles are done."""
+def report_progress(cycle: int, paused: bool = False) -> None:
+    """Tell the process that started the graph how many cycles are done, less than 0 in a pause."""
     descriptor = os.environ.get("FPT_PROGRESS_FD")
     if descriptor:
         try:
-            os.write(int(descriptor), f"{cycle}\n".encode())
+            os.write(int(descriptor), f"{-1 - cycle if paused else cycle}\n".encode())
         except OSError:
             os.environ.pop("FPT_PROGRESS_FD")

@@ -72,7 +72,7 @@ def run_live(
     run_nodes([make], stop, [NAME, "--ros-args", "-r", f"__ns:={namespace or '/'}"])
     if stop.signal:
         raise Interrupted("interrupted")
-    return Outcome.of(nodes[0].comparison, *replay.recorded.missing)
+    return Outcome.of(nodes[0].comparison, *replay.recorded.missing, nodes[0].end)
 
 
 class Wait(NamedTuple):
@@ -92,6 +92,7 @@ class _ReplayNode(LoopNode):
 
     Attributes:
         comparison: of its answers with the recorded ones.
+        end: why the replay went no further than it did, if it is not that of the recording.
     """
 
     def __init__(
@@ -99,14 +100,15 @@ class _ReplayNode(LoopNode):
     ) -> None:
         super().__init__(NAME)
         stage, recorded = replay.stage, replay.recorded
-        self.comparison = Comparison(recorded.prefix)
+        self.comparison, self.end = Comparison(recorded.prefix), ""
         self._recorded, self._rate = recorded, rate
         self._progress, self._out = progress, out
-        self._node, self._output = replay.node, stage.output
+        self._node, self._output = stage.name, stage.output
         self._decode = Codec(stage.output).decode
         inputs = {each.topic for each in stage.inputs}
         place = LOOP_TOPICS.index(stage.output)
         self._before = [topic for topic in LOOP_TOPICS[:place] if topic in inputs]
+        self._needed = [each.topic for each in stage.inputs if not (each.lag or each.optional)]
         self._behind = [topic for topic in LOOP_TOPICS[place:] if topic in inputs]
         self._inputs = {
             topic.name: self.create_publisher(message_class(topic.type), topic.name, loop_qos())
@@ -116,8 +118,9 @@ class _ReplayNode(LoopNode):
         if isinstance(stage, PlantSimulator):  # it may wait for a recorder
             self._until = self.create_publisher(message_class(TIME), RECORDED_UNTIL, loop_qos(1))
         self.subscribe_raw(stage.output.name, stage.output.type, loop_qos(HEARD), self._on_answer)
-        self._set = self.create_client(SetParameters, f"{replay.node}/set_parameters")
-        self._changes = deque(sorted(replay.changes, key=lambda change: change.stamp))
+        self._set = self.create_client(SetParameters, f"{stage.name}/set_parameters")
+        own = [change for change in recorded.changes if change.node == stage.name]
+        self._changes = deque(sorted(own, key=lambda change: change.stamp))
         self._expected: dict[int, Cycle] = {}
         self._script = self._steps()
         self._wait = Wait(lambda: True)
@@ -128,20 +131,22 @@ class _ReplayNode(LoopNode):
         yield Wait(self._matched, f"there is no node {self._node} that listens: start it first")
         self._acknowledge(BEGUN)
         origin, first = monotonic(), -1
-        for cycle in self._recorded.cycles():
+        for due, cycle in enumerate(self._recorded.cycles()):
+            if cycle.number != due and not self._recorded.realtime:
+                self.end = f"cycle {due} is not in the recording"
+                break
             first = cycle.stamp if first < 0 else first
             if self._rate is not None:
                 self.deadline = origin + (cycle.stamp - first) / SECOND / self._rate
                 yield Wait(lambda: self.deadline is None)
-            answered = self._output.name in cycle.messages
-            acts = answered or not self._recorded.realtime
-            if answered:
+            if self._output.name in cycle.messages and self._is_asked(cycle):
                 self._expected[cycle.stamp] = cycle
             elif self._out is not None:
                 self._out.add(cycle, self._output, None)
             if self._before:
                 yield from self._change(cycle.stamp)
-            self._publish(cycle, self._before if acts else ())
+            if self._expected or not self._recorded.realtime:
+                self._publish(cycle, self._before)
             if self._rate is None:
                 yield Wait(
                     lambda: not self._expected,
@@ -157,6 +162,10 @@ class _ReplayNode(LoopNode):
         yield Wait(lambda: not self._expected or monotonic() > last + LAST_ANSWERS)
         for cycle in self._expected.values():
             self._compare(cycle, None)
+
+    def _is_asked(self, cycle: Cycle) -> bool:
+        """The node's answer is one to what is recorded; the plant begins by itself."""
+        return not self._before or all(topic.name in cycle.messages for topic in self._needed)
 
     def _publish(self, cycle: Cycle, topics: Iterable[Topic]) -> None:
         for topic in topics:

@@ -10,6 +10,9 @@ from fpt_ros.nodes.take import GID_SIZE
 UNKNOWN = b""
 """In the place of a GID where the middleware does not tell it: everybody is heard then."""
 
+ABSENT = 3
+"""Looks in a row at which a publisher was not there, after which it counts as gone."""
+
 
 class Sender:
     """Whom a node listens to on one topic.
@@ -22,6 +25,7 @@ class Sender:
         self.chosen = UNKNOWN
         self._node, self._topic, self._tell = node, topic, tell
         self._strangers: set[bytes] = set()
+        self._absent = 0
 
     def is_heard(self, gid: bytes) -> bool:
         """Whether a message of this publisher counts."""
@@ -38,10 +42,17 @@ class Sender:
             self.chosen = gid
 
     def look_whether_gone(self) -> None:
-        """Listen to another from now on, where the one chosen is not there any more."""
-        if self._strangers and self._about(self.chosen) is None:
+        """Listen to another from now on, where the one chosen is not there any more.
+
+        Asked once a second; on a busy machine a publisher may seem to be gone for a moment.
+        """
+        if not self._strangers or self._about(self.chosen) is not None:
+            self._absent = 0
+            return
+        self._absent += 1
+        if self._absent >= ABSENT:
             self._tell(f"the publisher of {self._resolved} has gone, another may take its place")
-            self.chosen = UNKNOWN
+            self.chosen, self._absent = UNKNOWN, 0
             self._strangers.clear()
 
     @property
@@ -56,9 +67,9 @@ class Sender:
 
     def _complaint(self, gid: bytes) -> str:
         about = self._about(gid)
-        who = (
+        who = (  # who has just come has no name yet
             "somebody else"
-            if about is None
+            if about is None or "UNKNOWN" in about.node_name
             else f"{about.node_namespace.rstrip('/')}/{about.node_name}"
         )
         return (

@@ -22,9 +22,23 @@ def left_as_found() -> Iterator[None]:
         yield
     finally:
         new = _files() - before
-        for path in new - (_used() if new else set()):
-            with suppress(OSError):  # another user's
-                path.unlink(missing_ok=True)
+        remove(new - (_used() if new else set()))
+
+
+def leftovers() -> set[Path]:
+    """Files that no process uses any more."""
+    found = _files()
+    return found - _used() if found else found
+
+
+def remove(paths: set[Path]) -> int:
+    """Remove files; how many could be."""
+    count = 0
+    for path in paths:
+        with suppress(OSError):  # another user's
+            path.unlink()
+            count += 1
+    return count
 
 
 def _files() -> set[Path]:

@@ -45,6 +45,7 @@ class Comparison:
         first: difference, of the earliest cycle; None: all are equal so far.
         compared, differing: messages.
         cycles: in which something was compared.
+        begin: the first of them, -1 before.
     """
 
     def __init__(self, prefix: str = "") -> None:
@@ -53,7 +54,7 @@ class Comparison:
         self.compared = self.differing = self.cycles = 0
         self._prefix = prefix
         self._codecs: dict[str, Codec] = {}
-        self._cycle = -1
+        self._cycle = self.begin = -1
 
     @property
     def equal(self) -> bool:
@@ -65,6 +66,7 @@ class Comparison:
         self.compared += 1
         if cycle != self._cycle:
             self._cycle, self.cycles = cycle, self.cycles + 1
+            self.begin = cycle if self.begin < 0 else self.begin
         found = self._difference(topic, recorded, now)
         if found is None:
             return True

@@ -13,12 +13,9 @@ from fpt_ros.cycle.matcher import Matcher
 from fpt_ros.cycle.plant_simulator import PlantSimulator
 from fpt_ros.cycle.stage import Stage
 from fpt_ros.errors import BadInput, Diverged
-from fpt_ros.experiments.parameter_file import ParameterFile
-from fpt_ros.experiments.sections import resolved
 from fpt_ros.messages.cdr import Codec, MalformedMessage
 from fpt_ros.messages.frames import Command, Frame, JointStates
 from fpt_ros.messages.topics import COMMAND, JOINT_STATES, LOOP_TOPICS
-from fpt_ros.parameters import Values
 from fpt_ros.replay.compared import first_field
 from fpt_ros.replay.recorded import Cycle, Recorded
 from fpt_ros.runs.changes import Change
@@ -56,23 +53,17 @@ class Lost(Exception):
     """A cycle without which the next ones cannot be replayed is not in the recording."""
 
 
-def answers(recorded: Recorded, stage: Stage, changes: Sequence[Change]) -> Iterator[Answered]:
-    """Cycle by cycle, as far as the recording goes.
-
-    Args:
-        recorded: the run.
-        stage: fresh, one that takes part in it.
-        changes: of parameters in flight, those of other nodes are left out.
-    """
+def answers(recorded: Recorded, stage: Stage) -> Iterator[Answered]:
+    """Cycle by cycle, as far as the recording goes; ``stage``: fresh, takes part in the run."""
     make: Any = _Plant if isinstance(stage, PlantSimulator) else _Answering
-    answer: Answer = make(stage, _Due(stage, changes), recorded.realtime)
+    answer: Answer = make(stage, _Due(stage, recorded.changes), recorded.realtime)
     for due, cycle in enumerate(recorded.cycles()):
         if not recorded.realtime and cycle.number != due:
             yield Answered(cycle, None, f"cycle {due} is not in the recording")
             return
         try:
             frame = answer(cycle)
-        except (Lost, Diverged) as error:
+        except (Lost, Diverged, MalformedMessage) as error:
             yield Answered(cycle, None, str(error), isinstance(error, Diverged))
             return
         yield Answered(cycle, frame)
@@ -190,20 +181,12 @@ class _Plant:
             self._commands = [*self._commands[-self._remembered :], command]
         elif not self._realtime:
             raise Lost(f"the command of cycle {before.number} is not in the recording")
-        shown = cycle.messages.get(JOINT_STATES.name)
-        if not self._realtime or shown is None:
-            return self._commands[-1]
-        told = self._own.decode(shown)
-        assert isinstance(told, JointStates)
         candidates = [*reversed(self._commands), self._plant.safe_command(before.stamp)]
-        for candidate in candidates:
-            if list(candidate.effort) == list(told.effort):
-                return candidate
+        shown = cycle.messages.get(JOINT_STATES.name)
+        if self._realtime and shown is not None:
+            told = self._own.decode(shown)
+            assert isinstance(told, JointStates)
+            for candidate in candidates:
+                if list(candidate.effort) == list(told.effort):
+                    return candidate
         return candidates[0]
-
-
-def with_settings(recorded: Recorded, node: str, settings: Values) -> dict[str, Any]:
-    """The recorded parameters of a node with some of them changed."""
-    base = ParameterFile(nodes={node: dict(recorded.parameters[node])})
-    file = base.overlay(ParameterFile(nodes={node: dict(settings)}))
-    return resolved(node, file, [base], {(node, name) for name in settings})

@@ -3,9 +3,11 @@
 import heapq
 import struct
 from collections import Counter
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
+from copy import copy
+from dataclasses import replace
 from pathlib import Path
-from typing import NamedTuple
+from typing import NamedTuple, Self
 
 from fpt_ros.bags import contents
 from fpt_ros.bags.bag import Bag
@@ -15,9 +17,11 @@ from fpt_ros.cycle.plant_simulator import PlantSimulator
 from fpt_ros.cycle.stage import ROBOT
 from fpt_ros.cycle.stages import STAGES
 from fpt_ros.errors import BadInput
+from fpt_ros.experiments.parameter_file import ParameterFile
+from fpt_ros.experiments.sections import resolved
 from fpt_ros.messages.frames import SECOND
 from fpt_ros.messages.topics import BY_NAME, Topic
-from fpt_ros.parameters import Value
+from fpt_ros.parameters import Value, Values
 from fpt_ros.runs.changes import Change
 
 _STAMP = struct.Struct("<iI")
@@ -59,7 +63,7 @@ class Recorded:
         """Read what it says of itself.
 
         Raises:
-            BadInput: it is not a recording of the loop, or begins in the middle of a run.
+            BadInput: it is not a recording of the loop.
         """
         self.path = path
         bag = Bag(path)
@@ -103,6 +107,32 @@ class Recorded:
             if name in self.parameters and stage.output.name in self.counts
             if not (robot and stage is PlantSimulator)
         ]
+
+    def with_settings(self, settings: Mapping[str, Values]) -> Self:
+        """The same run with other parameters, which hold from the start to the end.
+
+        Args:
+            settings: by node; recorded changes of these parameters are left out.
+
+        Raises:
+            BadInput: there is no such node, or a setting is not valid.
+        """
+        other, base = copy(self), ParameterFile(nodes=dict(self.parameters))
+        file = base.overlay(ParameterFile(nodes={name: dict(v) for name, v in settings.items()}))
+        for node, values in settings.items():
+            if node not in self.parameters:
+                there = ", ".join(self.parameters)
+                raise BadInput(f"{self.path} has no node '{node}': it has {there}")
+            explicit = {(node, name) for name in values}
+            now = resolved(node, file, [base], explicit)
+            other.parameters = {**other.parameters, node: now}
+        kept = [
+            replace(change, values={k: v for k, v in change.values.items() if k not in given})
+            for change in self.changes
+            for given in [settings.get(change.node, {})]
+        ]
+        other.changes = tuple(change for change in kept if change.values)
+        return other
 
     def cycles(self) -> Iterator[Cycle]:
         """All cycles, in their order.

@@ -1,6 +1,6 @@
 """Replaying a node and comparing what it answers: what ``fpt replay`` does."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Protocol, Self
 
@@ -9,11 +9,9 @@ from fpt_ros.cycle.stages import STAGES
 from fpt_ros.errors import BadInput
 from fpt_ros.messages.frames import Frame
 from fpt_ros.messages.topics import Topic
-from fpt_ros.parameters import Value, Values
 from fpt_ros.replay.compared import Comparison, Difference
-from fpt_ros.replay.one_stage import answers, with_settings
+from fpt_ros.replay.one_stage import answers
 from fpt_ros.replay.recorded import Cycle, Recorded
-from fpt_ros.runs.changes import Change
 
 Progress = Callable[[int], None]
 
@@ -60,32 +58,21 @@ class Replay:
     Attributes:
         recorded: the run.
         stage: the node's, fresh.
-        changes: of its parameters in flight.
     """
 
-    def __init__(self, recorded: Recorded, node: str, settings: Values | None = None) -> None:
-        """``settings``: parameters that differ from the recorded ones, from the start to the end.
+    def __init__(self, recorded: Recorded, node: str) -> None:
+        """Make the stage of the recorded parameters.
 
         Raises:
-            BadInput: there is no such node in the recording, or a setting is not valid.
+            BadInput: there is no such node in the recording.
         """
-        self.recorded, self.node = recorded, node
-        settings = settings or {}
         if node not in STAGES:
             raise BadInput(f"there is no node '{node}' to replay: there are {', '.join(STAGES)}")
         if node not in recorded.nodes:
             there = ", ".join(recorded.nodes) or "none"
             raise BadInput(f"{recorded.path} holds nothing of the node {node}: it has {there}")
-        self.parameters: dict[str, dict[str, Value]] = {
-            **recorded.parameters,
-            node: with_settings(recorded, node, settings),
-        }
-        self.stage: Stage = STAGES[node](self.parameters[node])
-        self.changes = tuple(
-            Change(node, change.stamp, kept)
-            for change in recorded.changes
-            if change.node == node and (kept := _without(change.values, settings))
-        )
+        self.recorded = recorded
+        self.stage: Stage = STAGES[node](recorded.parameters[node])
 
     def run(self, progress: Progress = lambda done: None, out: Out | None = None) -> Outcome:
         """All cycles, in process.
@@ -96,7 +83,7 @@ class Replay:
         """
         recorded, topic = self.recorded, self.stage.output
         comparison, end = Comparison(recorded.prefix), ""
-        for cycle, frame, end, diverged in answers(recorded, self.stage, self.changes):
+        for cycle, frame, end, diverged in answers(recorded, self.stage):
             was = cycle.messages.get(topic.name)
             new = frame is not None and (was is not None or recorded.complete)
             if new or (diverged and was is not None):
@@ -104,9 +91,14 @@ class Replay:
             progress(cycle.number + 1)
             if out is not None and not end:
                 out.add(cycle, topic, frame)
-        return Outcome.of(comparison, *recorded.missing, end)
+        return Outcome.of(comparison, *recorded.missing, end, self._late(comparison))
 
-
-def _without(values: Mapping[str, Value], settings: Values) -> dict[str, Value]:
-    """A change without the parameters that are set to the end."""
-    return {name: value for name, value in values.items() if name not in settings}
+    def _late(self, comparison: Comparison) -> str:
+        """In real time nobody tells whether the recorder was there from the beginning."""
+        first = comparison.first
+        if not self.recorded.realtime or first is None or first.cycle != comparison.begin:
+            return ""
+        return (
+            f"{self.stage.name}: the first answer differs already: the recording may begin after "
+            "the node did, which remembers what was before"
+        )

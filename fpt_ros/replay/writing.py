@@ -1,5 +1,6 @@
 """The recording of a replay: the run with new answers of one node in the place of the old ones."""
 
+from collections import deque
 from pathlib import Path
 from types import TracebackType
 from typing import Self
@@ -25,16 +26,16 @@ class ReplayWriter:
         recorded = replay.recorded
         ended = ("complete", "reason", "missing")
         info = {key: value for key, value in recorded.info.items() if key not in ended}
-        self._writer = BagWriter(directory, replay.parameters, {**info, "replayed": replay.node})
+        info["replayed"] = replay.stage.name
+        self._writer = BagWriter(directory, recorded.parameters, info)
         self._prefix, self._reason = recorded.prefix, recorded.info["reason"]
-        others = [change for change in recorded.changes if change.node != replay.node]
-        self._changes = sorted([*others, *replay.changes], key=lambda change: change.stamp)
+        self._changes = deque(sorted(recorded.changes, key=lambda change: change.stamp))
         self._codecs = {topic.name: Codec(topic) for topic in LOOP_TOPICS}
 
     def add(self, cycle: Cycle, topic: Topic, answer: Frame | None) -> None:
         """A cycle, with the node's answer on its topic."""
         while self._changes and self._changes[0].stamp <= cycle.stamp:
-            change = self._changes.pop(0)
+            change = self._changes.popleft()
             name = f"{self._prefix}/{changes.TOPIC}"
             data = changes.encode(change, f"{self._prefix}/{change.node}")
             self._writer.write(name, changes.TYPE, change.stamp, data)

@@ -6,6 +6,7 @@ import pytest
 from fpt_ros.analysis import motions, outline, signals
 from fpt_ros.analysis.outline import DESIRED, REALISED, Outliner
 from fpt_ros.analysis.thinner import CAPACITY, Window
+from fpt_ros.runs.changes import Change
 from fpt_ros.runs.chunks import rows
 from fpt_ros.runs.run import Run, Series
 
@@ -77,4 +78,13 @@ def test_an_outline_does_not_depend_on_the_chunks(long):
         assert np.array_equal(curve.time, found.curves[key].time)
     assert np.array_equal(whole.motions["a"].error, found.motions["a"].error)
     assert (whole.period, whole.end) == (found.period, found.end)
+    assert outline.outline(found) is found
+
+
+def test_changes_in_flight_count_from_the_first_stamp():
+    stamps = 5_000_000_000 + 1_000_000 * np.arange(2000, dtype=np.int64)
+    measured = Series(stamps, ("a",), {"position": np.zeros((2000, 1))})
+    change = Change("fpt_deformer", 6_000_000_000, {"A": -2.0})
+    found = outline.outline(Run({}, {}, {"joint_states": measured}, None, (change,)))
+    assert [each.stamp for each in found.changes] == [1_000_000_000]
     assert outline.outline(found) is found

@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from fpt_ros.analysis.performance import Performance, joined
+from fpt_ros.analysis.performance import Performance
 from fpt_ros.runs.chunks import rows
 
 DT = 1e-3
@@ -49,7 +49,7 @@ def time():
 
 def test_first_order_step_has_the_closed_forms_of_books(time):
     tau, step = 0.5, 2.0
-    found = numbers(run_of(step * np.exp(-time / tau)))["tracking"]["q"]
+    found = numbers(run_of(step * np.exp(-time / tau)))["q"]
     assert found["rise_time"] == pytest.approx(tau * math.log(9.0), abs=2 * DT)
     assert found["settling_time"] == pytest.approx(tau * math.log(50.0), abs=0.02 * tau)
     assert found["overshoot_percent"] == 0.0
@@ -62,7 +62,7 @@ def test_first_order_step_has_the_closed_forms_of_books(time):
 def test_second_order_step_overshoots_as_books_say(time, damping):
     root = math.sqrt(1.0 - damping**2)
     error = -np.exp(-damping * time) * (np.cos(root * time) + damping / root * np.sin(root * time))
-    found = numbers(run_of(error))["tracking"]["q"]
+    found = numbers(run_of(error))["q"]
     expected = 100.0 * math.exp(-math.pi * damping / root)
     assert found["overshoot_percent"] == pytest.approx(expected, rel=1e-4)
     outside = np.flatnonzero(np.abs(error) > 0.02 * np.abs(error).max())
@@ -71,30 +71,28 @@ def test_second_order_step_overshoots_as_books_say(time, damping):
 
 def test_what_never_settles_has_no_settling_time(time):
     # a motion that repeats itself crosses zero at the end too
-    found = numbers(run_of(np.sin(2 * np.pi * time)))["tracking"]["q"]
+    found = numbers(run_of(np.sin(2 * np.pi * time)))["q"]
     assert found["settling_time"] is None
     assert found["rise_time"] is None
     assert found["overshoot_percent"] is None
 
 
 def test_a_perfect_run_and_one_without_messages():
-    found = numbers(run_of(np.zeros(100)))["tracking"]["q"]
+    found = numbers(run_of(np.zeros(100)))["q"]
     assert found["settling_time"] == found["iae"] == 0.0
     assert found["rise_time"] is None
     empty = Performance(PARAMETERS).result()
-    assert empty == {"tracking": {}, "effort": {}}
+    assert empty == {}
 
 
 def test_energy_is_the_work_of_the_effort(time):
     effort, velocity = 3.0 * np.cos(time), 2.0 * np.cos(time)
     found = numbers(run_of(np.ones(len(time)), effort, velocity))
-    assert found["effort"]["q"]["energy"] == pytest.approx(
-        6.0 * (END / 2 + math.sin(2 * END) / 4), rel=1e-3
-    )
+    assert found["q"]["energy"] == pytest.approx(6.0 * (END / 2 + math.sin(2 * END) / 4), rel=1e-3)
 
 
 def test_huge_errors_have_no_numbers_that_json_cannot_write(time):
-    found = numbers(run_of(np.full(len(time), 1e200), nominal=0.0))["tracking"]["q"]
+    found = numbers(run_of(np.full(len(time), 1e200), nominal=0.0))["q"]
     assert found["ise"] is None
     assert found["iae"] == pytest.approx(1e200 * END)
 
@@ -106,10 +104,3 @@ def test_numbers_do_not_depend_on_the_chunks(make):
     for first in range(0, 10_000, 777):
         parts.take({name: rows(s, first, first + 777) for name, s in run.topics.items()})
     assert whole.result() == parts.result()
-
-
-def test_they_stand_beside_those_of_the_summary():
-    summary = {"tracking": {"q": {"rms": 1.0}}, "effort": {"q": {"rms": 2.0}, "p": {"rms": 0.0}}}
-    both = joined(summary, {"tracking": {"q": {"iae": 3.0}}, "effort": {"q": {"energy": 4.0}}})
-    assert both["tracking"] == {"q": {"rms": 1.0, "iae": 3.0}}
-    assert both["effort"] == {"q": {"rms": 2.0, "energy": 4.0}, "p": {"rms": 0.0}}

@@ -136,3 +136,56 @@ def test_bad_words_for_test_signals(tmp_path, words, message):
     assert done.returncode == 2
     assert message in done.stderr
     assert not (tmp_path / "x.csv").exists()
+
+
+# --- filters of the loop over a record
+
+
+def encoder(path):
+    t = np.arange(1500) * 1e-3
+    q = np.round(np.sin(7 * t) / 5e-5) * 5e-5
+    rows = [f"{a:.3f},{b:.6f}" for a, b in zip(t, q, strict=True)]
+    path.write_text("\n".join(["t [s],q [rad]", *rows]))
+    return t
+
+
+def test_a_filter_of_the_loop_over_a_record(tmp_path):
+    t = encoder(tmp_path / "q.csv")
+    out = tmp_path / "out.csv"
+    words = ("--streaming", "adaptive_kalman", "--derivative", "1", "--out", out)
+    found = fpt_json("denoise", tmp_path / "q.csv", *words)
+    assert found["method"] == "adaptive_kalman"
+    assert found["info"]["delay"] == "0 s"
+    table = np.genfromtxt(out, delimiter=",", skip_header=1)
+    late = t > 0.5
+    assert np.sqrt(np.mean((table[late, -1] - 7 * np.cos(7 * t[late])) ** 2)) < 0.05
+
+
+def test_filters_are_ranked_with_their_delay(tmp_path):
+    encoder(tmp_path / "q.csv")
+    words = ("--streaming", "all", "--compare")
+    rows = fpt_json("denoise", tmp_path / "q.csv", *words)["filters"]
+    score = {row["method"]: row["score"] for row in rows}
+    assert list(score.values()) == sorted(score.values())
+    assert score["adaptive_kalman"] < score["kalman_bank"] < score["butterworth"]
+    delay = {row["method"]: row["delay"] for row in rows}
+    assert delay["butterworth"] == pytest.approx(np.sqrt(2) / (2 * np.pi * 20.0), abs=2e-3)
+
+
+@pytest.mark.parametrize(
+    ("words", "message"),
+    [
+        (["--streaming", "foo"], "none of the filters"),
+        (["--streaming", "all"], "add --compare, or name one"),
+        (["--streaming", "savgol", "--compare"], "--streaming all"),
+        (["--streaming", "savgol", "--method", "fuzzy"], "give one of them"),
+        (["--streaming", "savgol", "--set", "window=10"], "odd"),
+        (["--streaming", "savgol", "--set", "seconds=100"], "at most 10001"),
+    ],
+)
+def test_filters_that_cannot_be_run(tmp_path, words, message):
+    encoder(tmp_path / "q.csv")
+    done = fpt("denoise", tmp_path / "q.csv", *words)
+    assert done.returncode == 2
+    assert message in done.stderr
+    assert len(done.stderr.strip().splitlines()) == 1

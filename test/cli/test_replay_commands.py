@@ -43,6 +43,20 @@ def test_with_another_gain(bag, tmp_path, setting):
     assert "messages of 200 cycles differ\n  /command differs first in cycle 1: acc" in text
 
 
+def test_a_rerun_with_another_gain(bag):
+    done = fpt("rerun", bag, "--set", "fpt_deformer.A=2e-6", "--json")
+    assert done.returncode == 1
+    first = json.loads(done.stdout)["first_difference"]
+    assert (first["topic"], first["field"], first["cycle"]) == ("/command", "accelerations.q1", 1)
+    for bad, message in (
+        ("A=2e-6", "--set A=2e-6: it takes NODE.PARAM=VALUE"),
+        ("fpt_deformer.gain=1", "fpt_deformer has no parameter 'gain'"),
+    ):
+        refused = fpt("rerun", bag, "--set", bad)
+        assert refused.returncode == 2
+        assert message in refused.stderr
+
+
 def test_parameters_of_a_recording(bag, tmp_path):
     file = tmp_path / "vdp_rfpt.yaml"
     file.write_text(fpt("info", bag, "--parameters").stdout)

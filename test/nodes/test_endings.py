@@ -1,5 +1,6 @@
 """However a run ends: the right exit status, a closed recording, and nothing left behind."""
 
+import os
 import signal
 from contextlib import suppress
 from pathlib import Path
@@ -23,10 +24,15 @@ def in_shared_memory(processes):
     """Files in shared memory that these processes have mapped or open."""
     used = set()
     for process in processes:
-        with suppress(psutil.Error):
-            used |= {mapped.path for mapped in process.memory_maps()}
-            used |= {file.path for file in process.open_files()}
-    return {Path(path) for path in used if path.startswith("/dev/shm/")}
+        folder = Path(f"/proc/{process.pid}")
+        with suppress(OSError):  # it has ended
+            maps = (folder / "maps").read_text().splitlines()
+            used |= {line[line.index("/") :] for line in maps if "/dev/shm/" in line}
+            for descriptor in (folder / "fd").iterdir():
+                with suppress(OSError):
+                    used.add(os.readlink(descriptor))
+    shared = (path.removesuffix(" (deleted)") for path in used if path.startswith("/dev/shm/"))
+    return set(map(Path, shared))
 
 
 def segments_of(children):

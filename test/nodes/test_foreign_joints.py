@@ -175,7 +175,7 @@ def test_what_cannot_be_used_is_named_and_ignored_also_from_the_right_sender(tmp
             assert same(peer.answer(answer.stamp), answer), f"at {answer.stamp} ns"
     for text in (
         "state_estimate: positions of q1 is nan",
-        "desired: positions of q3 is inf",
+        "desired: positions of q1 is inf",
         "state_estimate: positions of q1 is 1e+300",
         "positions holds 1 numbers for 3 joints",
         "the joint 'q1' is not there, only wheel, gripper, q9",

@@ -1,9 +1,17 @@
 """The graph on the wall clock."""
 
+import psutil
 from command import forked_fpt_json as fpt_json
+from command import start_fpt
 from mcap_ros2.reader import read_ros2_messages
+from watcher import watcher
 
 from fpt_ros.bags.reader import read_run
+
+
+def node_of(process, name):
+    children = psutil.Process(process.pid).children(recursive=True)
+    return next(each for each in children if f"fpt_ros.nodes.{name}" in each.cmdline())
 
 
 def test_cycles_follow_the_wall_clock(tmp_path):
@@ -45,3 +53,30 @@ def test_late_commands_give_way_to_the_safe_effort():
     assert command.effort == [0.5, 0.5, 0.5]
     plant.advance(command, 0)
     assert list(plant.measure(1_000_000, 1).effort) == [0.5, 0.5, 0.5]
+
+
+def test_a_recorder_that_stands_still_does_no_harm_and_is_told_of(tmp_path):
+    """Frozen for two seconds: the loop goes on; what the recording lacks is said, or nothing is."""
+    bag = tmp_path / "bag"
+    process = start_fpt(
+        "run", "tora", "--variant", "nonadaptive", "--realtime", "--duration", 5, "--record", bag,
+        "--set", "plant_simulator.dt=0.005",
+    )  # fmt: skip
+    with watcher() as graph:
+        graph.wait_for_next()
+        recorder = node_of(process, "recorder")
+        recorder.suspend()
+        stamp = graph.stamp_after(2.0)
+        recorder.resume()
+    _, stderr = process.communicate(timeout=90)
+    run = read_run(bag)
+    stamps = run.topics["joint_states"].stamps
+    assert "diverged" not in stderr
+    assert stamps[-1] - stamps[0] == 999 * 5_000_000
+    assert stamp <= stamps[-1]
+    if len(stamps) == 1000:
+        assert process.returncode == 0, stderr
+    else:
+        assert process.returncode == 1
+        assert f"lacks {1000 - len(stamps)} of 1000 cycles" in stderr
+        assert run.info["complete"] == "false"

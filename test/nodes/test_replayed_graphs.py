@@ -7,7 +7,6 @@ import samples
 from command import fpt, fpt_json, start_fpt
 from watcher import watcher
 
-from fpt_ros.cli.replayed import settings_of
 from fpt_ros.replay.recorded import Recorded
 from fpt_ros.replay.replayed import Replay
 from fpt_ros.replay.rerun import rerun
@@ -53,9 +52,11 @@ def test_every_node_and_the_whole_run_are_equal_to_the_last_bit(tmp_path, name):
     assert whole.first is None
     assert whole.cycles > cycle
     node, parameter, good, _, _ = CHANGES[name]
-    without = Replay(recorded, node, settings_of(node, [f"{parameter}={good}"])).run()
+    without = Replay(recorded.with_settings({node: {parameter: good}}), node).run()
     assert without.first is not None  # the change was not in force from the start
     assert 0 < without.first.cycle < cycle
+    (other,) = rerun(recorded.with_settings({node: {parameter: good}})).values()
+    assert other.first == without.first
 
 
 @pytest.mark.parametrize("options", [("--realtime",), ("--realtime", "--composed")])

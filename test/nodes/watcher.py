@@ -73,6 +73,37 @@ class Watcher:
         self.node.destroy_subscription(subscription)
         assert first.done(), "the graph stands still"
 
+    def stamp_after(self, seconds):
+        """The stamp [ns] of the first command that is so much younger than one seen now."""
+        stamps = []
+        subscription = self.node.create_subscription(
+            JointTrajectory,
+            "/command",
+            lambda m: stamps.append(m.header.stamp.sec * 10**9 + m.header.stamp.nanosec),
+            loop_qos(),
+        )
+        while not stamps or max(stamps) - min(stamps) < seconds * 1e9:
+            self.executor.spin_once(timeout_sec=PATIENCE)
+        self.node.destroy_subscription(subscription)
+        return max(stamps)
+
+    def stands_still(self):
+        """The stamp [ns] at which a paused graph stands: no other comes for half a second."""
+        stamps = []
+        subscription = self.node.create_subscription(
+            JointTrajectory,
+            "/command",
+            lambda m: stamps.append(m.header.stamp.sec * 10**9 + m.header.stamp.nanosec),
+            loop_qos(1),
+        )
+        seen, quiet = -1, 0
+        while quiet < 5:
+            self.executor.spin_once(timeout_sec=0.1)
+            quiet = quiet + 1 if stamps and stamps[-1] == seen else 0
+            seen = stamps[-1] if stamps else -1
+        self.node.destroy_subscription(subscription)
+        return seen
+
     def call(self, kind, name, request):
         client = self.node.create_client(kind, name)
         assert client.wait_for_service(timeout_sec=PATIENCE), name

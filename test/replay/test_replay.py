@@ -57,16 +57,22 @@ def test_all_nodes_and_the_whole_run(tmp_path: Path, name: str) -> None:
 
 
 def test_another_parameter_names_the_first_cycle(tora: Path) -> None:
-    found = Replay(Recorded(tora), "fpt_deformer", {"A": -0.1}).run()
+    found = Replay(
+        Recorded(tora).with_settings({"fpt_deformer": {"A": -0.1}}), "fpt_deformer"
+    ).run()
     assert found.first is not None
     assert (found.first.topic, found.first.cycle) == ("/command", 1)  # cycle 0 has no response yet
     assert found.first.field.startswith("accelerations.")
     assert found.first.recorded != found.first.now
     assert 0 < found.differing < found.cycles == CYCLES
-    heavier = Replay(Recorded(tora), "plant_simulator", {"exact.m": 20.5}).run()
+    heavier = Replay(
+        Recorded(tora).with_settings({"plant_simulator": {"exact.m": 20.5}}), "plant_simulator"
+    ).run()
     assert heavier.first is not None
     assert (heavier.first.topic, heavier.first.cycle) == ("/joint_states", 1)
-    other = Replay(Recorded(tora), "denoiser", {"method": "savgol"}).run()
+    other = Replay(
+        Recorded(tora).with_settings({"denoiser": {"method": "savgol"}}), "denoiser"
+    ).run()
     assert not other.equal
 
 
@@ -99,7 +105,7 @@ def test_a_damaged_number_is_found_by_its_node_alone(tmp_path: Path) -> None:
 
 
 def test_the_recording_of_a_replay_is_a_recording(tora: Path, tmp_path: Path) -> None:
-    stronger = Replay(Recorded(tora), "fpt_deformer", {"A": -0.3})
+    stronger = Replay(Recorded(tora).with_settings({"fpt_deformer": {"A": -0.3}}), "fpt_deformer")
     with ReplayWriter(tmp_path / "out", stronger) as out:
         differs = stronger.run(out=out)
     assert not differs.equal
@@ -202,9 +208,9 @@ def test_what_cannot_be_replayed(tora: Path, tmp_path: Path) -> None:
     with pytest.raises(BadInput, match="holds nothing of the node parameter_tuner: it has plant"):
         Replay(run, "parameter_tuner")
     with pytest.raises(BadInput, match=r"fpt_deformer has no parameter 'gain'"):
-        Replay(run, "fpt_deformer", {"gain": 1.0})
+        Replay(run.with_settings({"fpt_deformer": {"gain": 1.0}}), "fpt_deformer")
     with pytest.raises(BadInput, match=r"fpt_deformer.K: 'high' is not valid, it takes a number"):
-        Replay(run, "fpt_deformer", {"K": "high"})
+        Replay(run.with_settings({"fpt_deformer": {"K": "high"}}), "fpt_deformer")
     with pytest.raises(BadInput, match="does not exist"):
         Recorded(tmp_path / "nothing")
 
@@ -258,6 +264,19 @@ def test_in_real_time_what_a_node_had_seen_follows_from_its_answers(tmp_path: Pa
     assert {name: one.first for name, one in found.items()} == dict.fromkeys(run.nodes)
     assert found["plant_simulator"].cycles == CYCLES
     assert found["parameter_tuner"].cycles == CYCLES - 1
+
+
+def test_a_recorder_that_came_late_to_a_run_in_real_time(tmp_path: Path) -> None:
+    def alter(topic: Topic, frame: Frame) -> Frame | None:
+        return frame if frame.stamp >= 20_000_000 else None
+
+    info = {**INFO, "clock": "realtime"}
+    run = Recorded(recorded(tmp_path / "bag", "tora", 40, alter=alter, info=info))
+    found = rerun(run)["trajectory_generator"]
+    assert found.first is not None
+    assert found.first.cycle == 0
+    (note,) = found.notes
+    assert note.startswith("trajectory_generator: the first answer differs already: the recording")
 
 
 # --- comparing

@@ -107,6 +107,12 @@ ARM = """<robot name="r"><link name="base"/>{link}
 <limit lower="{low}" upper="1" effort="9" velocity="1"/></joint></robot>"""
 
 
+LOOP = """<mujoco><worldbody>
+<body name="a"><joint/><geom size=".1" mass="1"/></body>
+<body name="b"><joint/><geom size=".1" mass="1"/></body></worldbody>
+<equality><connect body1="a" body2="b" anchor="0 0 0"/></equality></mujoco>"""
+
+
 @pytest.mark.parametrize(
     ("text", "wrong"),
     [
@@ -115,6 +121,7 @@ ARM = """<robot name="r"><link name="base"/>{link}
         (ARM.format(link=LINK.format("a"), kind="revolute", low=1), "has no joint that turns"),
         ('<robot xmlns:xacro="x"><xacro:include filename="y"/></robot>', "is a xacro file"),
         ("nothing", "is not XML"),
+        (LOOP, "closes a loop between 'a' and 'b'"),
     ],
 )
 def test_what_cannot_be_used_is_refused_in_one_line(text, wrong, tmp_path):

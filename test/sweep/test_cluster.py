@@ -18,7 +18,7 @@ def sweep_of(count):
 
 
 def swept(sweep, directory, pool, progress):
-    open_directory(sweep, directory)
+    open_directory(sweep.definition, directory)
     with run(sweep, directory, pool, progress) as journal:
         return list(journal.rows())
 

@@ -13,14 +13,18 @@ from bokeh.model import Model
 from bokeh.models import BoxZoomTool, CustomJS, Range1d
 from bokeh.models.tools import ToolProxy
 from bokeh.resources import Resources
+from bokeh.settings import settings
 
-from fpt_ros.analysis.panels import Curve, Panels, Span
+from fpt_ros.analysis.panel import Curve, Span
+from fpt_ros.analysis.panels import Panels
 from fpt_ros.analysis.plots.drawing import Drawing
 from fpt_ros.analysis.plots.parts import home_range
 from fpt_ros.analysis.plots.pool import Pool
 
 WINDOW = "window"
 """Name of the range of time that the figures have in common."""
+
+settings.perform_document_validation = False  # the tests look at the page itself
 
 _SCRIPT = files("fpt_ros.analysis.plots").joinpath("window.js").read_text(encoding="utf-8")
 
@@ -59,8 +63,10 @@ def plots(figures: Mapping[str, Panels]) -> Plots:
         zooms = [tool for tool in root.toolbar.tools if isinstance(tool, ToolProxy)]
         root.toolbar.active_drag = next(t for t in zooms if isinstance(t.tools[0], BoxZoomTool))
         _link(document, root, drawing, home_range(span) if alone else common)
-        document.add_root(root)
         roots[name] = root
+    with document.models.freeze():  # it looks for all references after each change otherwise
+        for each in roots.values():
+            document.add_root(each)
     script, places = components(roots)
     names = _Names()
     return Plots(

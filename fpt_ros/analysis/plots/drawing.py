@@ -9,7 +9,8 @@ from bokeh.models.annotations import Span as Line
 from bokeh.plotting import figure
 
 from fpt_ros.analysis import style
-from fpt_ros.analysis.panels import Curve, Panel, Panels
+from fpt_ros.analysis.panel import Curve, Panel
+from fpt_ros.analysis.panels import Panels
 from fpt_ros.analysis.plots import parts
 from fpt_ros.analysis.plots.parts import Renderer, home_range
 from fpt_ros.analysis.plots.pool import Pool

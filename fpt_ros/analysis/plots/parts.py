@@ -21,7 +21,7 @@ from bokeh.models.renderers import GlyphRenderer
 from bokeh.plotting import figure
 
 from fpt_ros.analysis import style
-from fpt_ros.analysis.panels import Curve, Mark, Panel, Span
+from fpt_ros.analysis.panel import Curve, Mark, Panel, Span
 
 Renderer: TypeAlias = "GlyphRenderer[Any]"
 

@@ -7,7 +7,7 @@ from bokeh.models import ColumnDataSource
 from numpy.typing import NDArray
 
 from fpt_ros.analysis.decimate import keep
-from fpt_ros.analysis.panels import Curve
+from fpt_ros.analysis.panel import Curve
 from fpt_ros.runs.run import Array
 
 BUDGET = 15_000_000

@@ -14,6 +14,7 @@ import math
 
 from fpt_ros.denoising.offline.savgol import check, kernel
 from fpt_ros.denoising.streaming import ORDER, Filter
+from fpt_ros.denoising.streaming.savgol import odd_window
 from fpt_ros.denoising.streaming.three_states import response_of
 from fpt_ros.errors import BadInput
 from fpt_ros.laws import MutableVector, Vector
@@ -27,6 +28,15 @@ PARAMETERS = (
         [51.0, 101.0, 141.0, 251.0, 361.0],
         minimum=3.0,
         maximum=10_001.0,
+        live=False,
+    ),
+    Parameter(
+        "seconds",
+        "length of each member's window in time, at any rate; empty: they have `windows` samples",
+        [],
+        kind="floats",
+        unit="s",
+        above=0.0,
         live=False,
     ),
     Parameter(
@@ -56,6 +66,8 @@ def prepare(values: Values, n: int, dt: float) -> tuple[float, ...]:
     """
     sigma = number(values, "sigma")
     windows, degrees = numbers(values, "windows"), numbers(values, "degrees")
+    if numbers(values, "seconds"):
+        windows = [float(odd_window(length, dt)) for length in numbers(values, "seconds")]
     order = integer(values, ORDER.name)
     if not windows or len(windows) != len(degrees):
         raise BadInput(

@@ -11,15 +11,44 @@ A sample that is NaN is missing: what the last fit expects takes its place.
 from fpt_ros.denoising.offline.savgol import check, kernel
 from fpt_ros.denoising.streaming import ORDER, Filter
 from fpt_ros.denoising.streaming.three_states import response_of
+from fpt_ros.errors import BadInput
 from fpt_ros.laws import MutableVector, Vector
-from fpt_ros.parameters import Parameter, Values, integer
+from fpt_ros.parameters import Parameter, Values, integer, number
+
+SECONDS = Parameter(
+    "seconds",
+    "length of the window in time, at any rate; 0: it has `window` samples",
+    0.0,
+    unit="s",
+    minimum=0.0,
+    live=False,
+)
 
 PARAMETERS = (
     Parameter("window", "samples of the window, odd", 141, minimum=3, maximum=10_001, live=False),
     Parameter("degree", "degree of the polynomial", 3, minimum=1, maximum=9),
+    SECONDS,
 )
 
+LONGEST = 10_001
+"""Samples of a window at most."""
+
 _HEADER = 2
+
+
+def odd_window(seconds: float, dt: float) -> int:
+    """Samples of a window that lasts this long: odd, at least 3.
+
+    Raises:
+        BadInput: more than a filter of the loop can hold.
+    """
+    half = round(0.5 * (seconds / dt - 1.0))
+    if 2 * half + 1 > LONGEST:
+        raise BadInput(
+            f"a window of {seconds:g} s has {2 * half + 1} samples at {1 / dt:g} Hz: at most "
+            f"{LONGEST}"
+        )
+    return max(3, 2 * half + 1)
 
 
 def end_kernels(window: int, degree: int, dt: float) -> list[float]:
@@ -34,6 +63,8 @@ def end_kernels(window: int, degree: int, dt: float) -> list[float]:
 def prepare(values: Values, n: int, dt: float) -> tuple[float, ...]:
     """Constants: window, order of the response, and the three kernels."""
     window, degree = integer(values, "window"), integer(values, "degree")
+    if number(values, SECONDS.name) > 0.0:
+        window = odd_window(number(values, SECONDS.name), dt)
     order = integer(values, ORDER.name)
     check(window, degree, least_degree=max(1, order))
     return (float(window), float(order), *end_kernels(window, degree, dt))

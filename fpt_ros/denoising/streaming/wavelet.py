@@ -15,30 +15,40 @@ A sample that is NaN is missing: the last estimate takes its place.
 """
 
 import math
+from dataclasses import replace
 
 import pywt
 
 from fpt_ros.denoising.offline.savgol import check
 from fpt_ros.denoising.streaming import ORDER, Filter
-from fpt_ros.denoising.streaming.savgol import end_kernels
+from fpt_ros.denoising.streaming.savgol import SECONDS, end_kernels, odd_window
 from fpt_ros.denoising.streaming.three_states import response_of
 from fpt_ros.errors import BadInput
 from fpt_ros.laws import MutableVector, Vector, helper
 from fpt_ros.parameters import Parameter, Values, integer, number, word
 
+LONGEST_WINDOW = 4096
 WAVELETS = ("haar", "db2", "db3", "db4", "sym4", "sym5", "sym6", "sym8", "coif1", "coif2")
 
 PARAMETERS = (
     Parameter("sigma", "standard deviation of the position noise", 1e-3, above=0.0),
     Parameter("wavelet", "orthogonal wavelet", "sym4", choices=WAVELETS),
     Parameter(
-        "window", "samples of the window, a power of 2", 256, minimum=16, maximum=4096, live=False
+        "window",
+        "samples of the window, a power of 2",
+        256,
+        minimum=16,
+        maximum=LONGEST_WINDOW,
+        live=False,
     ),
     Parameter("level", "levels of the transform", 3, minimum=1, maximum=8, live=False),
     Parameter(
         "fit", "newest samples that the polynomial is fitted to, odd", 141, minimum=3, live=False
     ),
     Parameter("degree", "degree of the polynomial", 3, minimum=1, maximum=9),
+    replace(
+        SECONDS, text="length of the fit in time, at any rate; 0: `window` and `fit` are samples"
+    ),
 )
 
 _HEADER = 6
@@ -51,6 +61,15 @@ def prepare(values: Values, n: int, dt: float) -> tuple[float, ...]:
     """
     window, level, fit = integer(values, "window"), integer(values, "level"), integer(values, "fit")
     degree, order = integer(values, "degree"), integer(values, ORDER.name)
+    seconds = number(values, SECONDS.name)
+    if seconds > 0.0:  # of the fit; the window is at least as long
+        fit = odd_window(seconds, dt)
+        window = max(16, 2 ** math.ceil(math.log2(fit)))
+        if window > LONGEST_WINDOW:
+            raise BadInput(
+                f"seconds = {seconds:g} has a window of {window} samples at {1 / dt:g} Hz: at most "
+                f"{LONGEST_WINDOW}"
+            )
     low = pywt.Wavelet(word(values, "wavelet")).rec_lo
     if window & (window - 1):
         raise BadInput(f"window = {window} is not valid: it takes a power of 2")

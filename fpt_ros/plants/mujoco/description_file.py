@@ -99,9 +99,16 @@ def joints_of(path: Path) -> Joints:
     """Which joints of a file can be moved, each by itself.
 
     Raises:
-        BadInput: the file cannot be read.
+        BadInput: the file cannot be read, or closes a loop.
     """
     spec, kinds = read(path, str(path)), bindings().mjtJoint
+    loops = (bindings().mjtEq.mjEQ_CONNECT, bindings().mjtEq.mjEQ_WELD)
+    for each in spec.equalities:
+        if each.type in loops and each.active:
+            raise BadInput(
+                f"{path} closes a loop between '{each.name1}' and '{each.name2}' (connect or "
+                "weld): only trees of joints can be modelled"
+            )
     follows = followers(spec)
     root = _parsed(path.read_bytes())
     stuck = _without_room(root) if root.tag == "robot" else []

@@ -16,6 +16,7 @@ from fpt_ros.engine import compiled
 PEERS = ("alpha_beta_gamma", "butterworth", "high_gain", "levant", "one_euro")
 
 LAWS = {
+    "adaptive_kalman": (FILTERS["adaptive_kalman"], {}),
     "savgol": (SAVGOL, {"window": 41, "degree": 3}),
     "adaptive_savgol": (ADAPTIVE_SAVGOL, {"windows": [21.0, 41.0, 71.0], "degrees": [2, 3, 5]}),
     "kalman_bank": (KALMAN_BANK, {"settling": 0.1}),

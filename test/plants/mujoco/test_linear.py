@@ -9,7 +9,7 @@ from fpt_ros.errors import BadInput
 from fpt_ros.parameters import resolve
 from fpt_ros.plants import MODELS
 from fpt_ros.plants.mujoco.description_file import ARMS, shipped
-from fpt_ros.plants.mujoco.linear import NUMBERS
+from fpt_ros.plants.mujoco.regressor import NUMBERS
 
 pytest.importorskip("mujoco")
 

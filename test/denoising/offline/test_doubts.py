@@ -1,0 +1,47 @@
+"""Where ``auto`` does not believe its own best model."""
+
+import numpy as np
+
+from fpt_ros.denoising.offline import denoise
+from fpt_ros.denoising.offline.doubts import bursts
+from fpt_ros.denoising.signals import white_noise
+
+
+def test_impulses_that_come_alone_are_impulses():
+    impulse = np.zeros(400)
+    impulse[[20, 60, 61, 130, 300]] = 1.0
+    assert not bursts(impulse).any()
+
+
+def test_three_in_a_row_are_a_signal_as_is_what_is_dense():
+    impulse = np.zeros(400)
+    impulse[100:103] = 1.0
+    impulse[300:340:3] = 1.0
+    found = bursts(impulse)
+    assert found[98:105].all()
+    assert found[305:335].all()
+    assert not found[:80].any()
+    assert not found[150:250].any()
+
+
+def test_a_chirp_up_to_half_the_rate_is_not_cut_where_it_is_fast():
+    t = np.arange(512) / 512
+    clean = np.sin(np.pi * t * len(t) * t / 4) * np.sqrt(2)
+    y = np.round(clean / 0.12) * 0.12
+    error = np.sqrt(np.mean((denoise(y).estimate - clean) ** 2))
+    assert error < np.sqrt(np.mean((y - clean) ** 2))
+
+
+def test_a_short_record_that_is_mostly_noise_stays():
+    y = white_noise(100, 1.0, 3)
+    np.testing.assert_array_equal(denoise(y).estimate, y)
+    slow = np.sin(np.arange(100) / 10) + 0.1 * y
+    assert not np.array_equal(denoise(slow).estimate, slow)
+
+
+def test_jumps_in_white_noise_are_not_coloured_noise():
+    clean = np.repeat([0.0, 2.0, -1.0, 1.0, -2.0], 100) + np.tile(np.linspace(0, 1, 100) ** 2, 5)
+    y = clean + white_noise(500, 0.1, 4)
+    found = denoise(y)
+    assert found.noise.colour == 0.0
+    assert np.sqrt(np.mean((found.estimate - clean) ** 2)) < 0.07

@@ -1,0 +1,168 @@
+"""The ladder of Kalman filters: near the best single one without being told noise or bandwidth."""
+
+import itertools
+import math
+
+import numpy as np
+import pytest
+from filter_runs import bang_bang, constants_of, noise, rms, run, two_sines
+
+from fpt_ros.denoising.streaming import Update
+from fpt_ros.denoising.streaming.adaptive_kalman import (
+    _LSB,
+    _SIGMA,
+    ADAPTIVE_KALMAN,
+    innovation_gain,
+    weight_of,
+)
+from fpt_ros.denoising.streaming.kalman_bank import KALMAN_BANK, steady_gains
+from fpt_ros.engine import compiled
+from fpt_ros.errors import BadInput
+
+LSB = 2 * math.pi / 2**17
+
+
+def filtered(law, q, dt=1e-3, **given):
+    """Estimates (samples, 3) by machine code."""
+    machine = compiled.law(law.update, Update)
+    return run(law, q, dt, np.array, machine, **given)[:, :, 0]
+
+
+def ended(q, dt=1e-3):
+    """Constants and memory after the record."""
+    constants = np.array(constants_of(ADAPTIVE_KALMAN, 1, dt))
+    state = np.zeros(ADAPTIVE_KALMAN.state_size(constants, 1))
+    ADAPTIVE_KALMAN.start(constants, state, q[:1], [math.nan])
+    machine = compiled.law(ADAPTIVE_KALMAN.update, Update)
+    out = np.zeros((3, 1))
+    for each in q[1:]:
+        machine(constants, state, dt, np.array([each]), np.array([math.nan]), *out)
+    return constants, state
+
+
+def measured(motion, samples, dt, sigma):
+    clean = motion(samples, dt)
+    if sigma == LSB:
+        return np.round(clean[0] / LSB) * LSB, clean
+    return clean[0] + noise(samples, 3, sigma), clean
+
+
+def ratios(rate, sigma, motion):
+    """Errors of velocity and acceleration over those of the best single filter of four states."""
+    samples, dt = 4 * rate, 1.0 / rate
+    q, clean = measured(motion, samples, dt, sigma)
+    late = slice(samples // 4, None)
+
+    def errors(law, **given):
+        out = filtered(law, q, dt, **given)
+        return np.array([rms(out[late, i] - clean[i][late]) for i in (1, 2)])
+
+    known = LSB / math.sqrt(12) if sigma == LSB else sigma
+    single = [  # h = (density dt^7 / sigma^2)^(1/8)
+        errors(
+            KALMAN_BANK, states=[4.0], sigma=known, gate=1e9, densities=[(h**8 * known**2) / dt**7]
+        )
+        for h in np.geomspace(5e-3, 3.6, 12)
+    ]
+    return errors(ADAPTIVE_KALMAN) / np.min(single, axis=0)
+
+
+def test_it_is_near_the_best_single_filter_at_its_defaults():
+    cells = itertools.product([100, 500], [1e-6, 1e-3, LSB], [two_sines, bang_bang])
+    found = np.array([ratios(*cell) for cell in cells])
+    assert np.all(found < 3.0)
+    assert np.all(np.exp(np.mean(np.log(found), axis=0)) < 1.25)
+
+
+def test_innovation_in_white_noise():
+    gains = steady_gains(4, 0.3**8, 1.0, 1.0)
+    x, found = np.zeros(4), []
+    F = np.array([[math.comb(j, i) for j in range(4)] for i in range(4)])
+    for y in noise(20_000, 1, 1.0):
+        x = F @ x
+        found.append(y - x[0])
+        x = x + gains * found[-1]
+    assert innovation_gain(gains) == pytest.approx(np.var(found[500:]), rel=0.05)
+
+
+@pytest.mark.parametrize("sigma", [1e-6, 1e-2])
+def test_sigma_is_found(sigma):
+    q = two_sines(5000)[0] + noise(5000, 4, sigma)
+    assert ended(q)[1][_SIGMA] == pytest.approx(sigma, rel=0.25)
+
+
+def test_the_step_of_an_encoder_is_found():
+    q = np.round(two_sines(5000)[0] / LSB) * LSB
+    assert ended(q)[1][_LSB] == pytest.approx(LSB, rel=1e-9)
+
+
+def test_impulses_are_kept_back():
+    clean = two_sines(4000)
+    q = clean[0] + noise(4000, seed=1)
+    hit = q.copy()
+    at = np.random.default_rng(5).choice(np.arange(900, 4000), 60, replace=False)
+    hit[at] += np.where(np.arange(60) % 2, 1.0, -1.0)
+    error = [
+        rms(filtered(ADAPTIVE_KALMAN, each, gate=gate)[1000:, 2] - clean[2][1000:])
+        for each, gate in ((q, 5.0), (hit, 5.0), (hit, 1e9))
+    ]
+    assert error[1] < 1.2 * error[0]
+    assert error[2] > 1000 * error[0]
+
+
+@pytest.mark.parametrize("jump", [0.02, 1.0, 1000.0])
+def test_it_finds_the_motion_again_after_a_step(jump):
+    clean = two_sines(4000)
+    q = clean[0] + noise(4000, seed=2)
+    q[2000:] += jump
+    out = filtered(ADAPTIVE_KALMAN, q)
+    after = slice(3000, None)
+    assert rms(out[after, 0] - clean[0][after] - jump) < 1e-3
+    assert rms(out[after, 2] - clean[2][after]) < 3.0
+
+
+def test_missing_samples_are_bridged_with_growing_doubt():
+    clean = two_sines(3000)
+    q = clean[0] + noise(3000, seed=4)
+    doubts = []
+    for gap in (0, 5, 20, 60):
+        lost = np.append(q[:2000], np.full(gap, math.nan))
+        constants, state = ended(lost)
+        doubts.append(ADAPTIVE_KALMAN.deviation(constants, state, 0))
+    assert np.all(np.diff(doubts, axis=0) > 0.0)
+    q[2000:2060] = [math.nan, math.inf] * 30
+    out = filtered(ADAPTIVE_KALMAN, q)
+    assert np.all(np.isfinite(out[1:]))
+    assert abs(out[2059, 0] - clean[0][2059]) < 3.0 * doubts[-1][0]
+
+
+def test_deviations_are_as_great_as_the_errors():
+    clean = two_sines(3000)
+    inside = []
+    for seed in range(8):
+        constants, state = ended(clean[0][:2000] + noise(2000, seed))
+        deviations = ADAPTIVE_KALMAN.deviation(constants, state, 0)
+        out = filtered(ADAPTIVE_KALMAN, clean[0][:2000] + noise(2000, seed))[-1]
+        inside += [abs(out[i] - clean[i][1999]) < 3.0 * deviations[i] for i in range(3)]
+    assert np.mean(inside) > 0.8
+
+
+def test_scale_and_sign_change_nothing_else():
+    q = two_sines(1500)[0] + noise(1500, 5)
+    expected = filtered(ADAPTIVE_KALMAN, q)
+    assert np.array_equal(filtered(ADAPTIVE_KALMAN, -1024.0 * q)[1:], -1024.0 * expected[1:])
+
+
+def test_weights_are_nearly_exponential():
+    assert weight_of(0.0) == 1.0
+    assert weight_of(3.0) == pytest.approx(math.exp(-1.0), rel=0.1)
+    assert weight_of(100.0) == 0.0
+
+
+@pytest.mark.parametrize(
+    ("given", "reason"),
+    [({"slowest": 5.0}, "less than fastest"), ({"members": 1}, "members"), ({"gate": 1.0}, "gate")],
+)
+def test_ladders_that_cannot_be(given, reason):
+    with pytest.raises(BadInput, match=reason):
+        constants_of(ADAPTIVE_KALMAN, **given)

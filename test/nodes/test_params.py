@@ -1,0 +1,73 @@
+"""``fpt params`` on a running graph."""
+
+import signal
+
+from command import forked_fpt, start_fpt
+from watcher import watcher
+
+from fpt_ros.experiments.parameter_file import read
+
+
+def ask(*words):
+    return forked_fpt("params", *words)
+
+
+def test_parameters_of_a_running_graph(tmp_path):
+    process = start_fpt("run", "tora", "--duration", 1000)
+    with watcher() as graph:
+        graph.wait_for_stamp(0.1)
+        forked_fpt("pause")  # some of what follows would lose the plant
+        assert ask("get", "fpt_deformer", "A").stdout == "fpt_deformer.A = -0.1\n"
+        assert "fpt_deformer.A\n" in ask("list").stdout
+        assert "live" in ask("describe", "fpt_deformer", "A").stdout
+
+        before = tmp_path / "before.yaml"
+        assert ask("dump", "--out", before).returncode == 0
+        assert read(before).nodes["fpt_deformer"]["approximate.m"] == 10.0
+
+        # a pair that is valid only together is taken as one
+        done = ask("set", "fpt_deformer", "A=-2e-10", "K=0.9", "D=2")
+        assert done.returncode == 0, done.stderr
+        assert graph.get_parameter("fpt_deformer", "A") == -2e-10
+        done = ask("set", "fpt_deformer", "A=-0.3", "K=1.99")
+        assert done.returncode == 2
+        assert "fixed point" in done.stderr
+        assert graph.get_parameter("fpt_deformer", "A") == -2e-10
+
+        done = ask("load", before)
+        assert done.returncode == 0, done.stderr
+        assert done.stdout.splitlines() == [
+            "fpt_deformer.A = -0.1", "fpt_deformer.D = 0.6", "fpt_deformer.K = 0.5"
+        ]  # fmt: skip
+        assert ask("load", before).stdout == ""
+        assert ask("dump", "fpt_deformer").stdout == ask("dump", "fpt_deformer").stdout
+
+        before.write_text(before.read_text().replace("dt: 0.001", "dt: 0.002"))
+        done = ask("load", before)
+        assert done.returncode == 2
+        assert "plant_simulator.dt cannot change while the loop runs" in done.stderr
+        for words, reason in (
+            (("set", "fpt_deformer", "B=1"), "no parameter 'B'"),
+            (("set", "fpt_deformer", "A"), "PARAM=VALUE"),
+            (("get", "fpt_deformer", "nonsense"), "no parameter 'nonsense'"),
+        ):
+            done = ask(*words)
+            assert done.returncode == 2
+            assert reason in done.stderr
+    process.send_signal(signal.SIGINT)
+    process.communicate(timeout=60)
+
+
+def test_changes_are_watched(tmp_path):
+    process = start_fpt("run", "tora", "--duration", 1000)
+    with watcher() as graph:
+        graph.wait_for_stamp(0.1)
+        watching = start_fpt("params", "watch", "--count", 1)
+        heard = graph.node.count_subscribers
+        while heard("/parameter_changes") < 1:
+            graph.executor.spin_once(timeout_sec=0.1)
+        while watching.poll() is None:
+            graph.set_parameter("fpt_deformer", "A", -0.2)
+        assert "fpt_deformer.A = -0.2" in watching.stdout.read()
+    process.send_signal(signal.SIGINT)
+    process.communicate(timeout=60)

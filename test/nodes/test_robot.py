@@ -1,0 +1,113 @@
+"""A robot that fpt_ros does not simulate, in wall time: the example, as its guide has it."""
+
+import importlib.util
+import math
+import signal
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+from command import forked_fpt, fpt_json
+
+from fpt_ros.bags.reader import read_run
+from fpt_ros.experiments.experiment import load
+from fpt_ros.messages.frames import JointStates
+
+EXAMPLE = Path(__file__).parents[2] / "examples" / "foreign_robot"
+DURATION = 6.0
+SETTINGS = ("denoiser.method=finite_difference",)
+FAULTS = ("--jitter", "0.2", "--lost", "0.01", "--no-velocity", "--best-effort")
+ENOUGH = 450.0
+"""Cycles a second: below it the machine is too busy for 500 Hz, and a bound on the error too."""
+
+
+@pytest.fixture
+def example(monkeypatch):
+    monkeypatch.chdir(EXAMPLE)
+    spec = importlib.util.spec_from_file_location("robot", EXAMPLE / "robot.py")
+    robot = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(robot)
+    return robot
+
+
+@pytest.fixture
+def start_robot():
+    started = []
+
+    def start(*options):
+        command = [sys.executable, EXAMPLE / "robot.py", *options]
+        started.append(subprocess.Popen(command, stdout=subprocess.PIPE, text=True))
+        return started[-1]
+
+    yield start
+    for process in started:
+        process.send_signal(signal.SIGINT)
+        process.communicate(timeout=30)
+
+
+def lockstep_error(robot, adaptive_from):
+    """rms of the tracking errors of the same arm, when it waits for each command."""
+    settings = [*SETTINGS, f"fpt_deformer.adaptive_from={adaptive_from}"]
+    loop = load("arm.yaml", settings=settings, duration=DURATION).loop()
+    q, v, effort, errors = [0.0, 0.0], [0.0, 0.0], [0.0, 0.0], []
+    steps = math.ceil(loop.plant.dt / robot.STEP)
+    for stage in loop.answering():
+        stage.clock[0] = stage.clock[1] = -1
+    for cycle in range(loop.plant.cycles):
+        nan = [math.nan] * 2
+        stamp = cycle * loop.plant.cycle_time
+        measured = JointStates(stamp, robot.EFFORTS, list(q), nan, list(effort))
+        estimate = loop.denoiser.step(measured)
+        desired = loop.trajectory.step(estimate)
+        effort = loop.deformer.step(estimate, desired, measured).effort
+        errors.append(np.subtract(desired.positions, q))
+        h = loop.plant.dt / steps
+        for _ in range(steps):
+            a = robot.accelerations(q, v, effort)
+            for i in range(2):
+                v[i] += h * a[i]
+                q[i] += h * v[i]
+    return settled(np.array(errors), np.arange(len(errors)) * loop.plant.dt)
+
+
+def settled(errors, time):
+    return math.sqrt(np.mean(errors[time > 2.5] ** 2))
+
+
+def recorded_error(bag):
+    """The same of a recording, each reference against the state that was measured at its time."""
+    topics = read_run(bag).topics
+    desired, measured = topics["desired"], topics["joint_states"]
+    common, mine, theirs = np.intersect1d(desired.stamps, measured.stamps, return_indices=True)
+    errors = [
+        desired.column("positions", name)[mine] - measured.column("position", name)[theirs]
+        for name in ("shoulder", "elbow")
+    ]
+    return settled(np.transpose(errors), (common - common[0]) * 1e-9)
+
+
+def test_a_robot_of_five_joints_with_jitter_losses_and_no_velocity(tmp_path, example, start_robot):
+    start_robot(*FAULTS)
+    bag = tmp_path / "bag"
+    settings = [word for text in SETTINGS for word in ("--set", text)]
+    result = fpt_json(
+        "run", "arm.yaml", "--no-plant", "--duration", DURATION, "--record", bag, *settings,
+        cwd=EXAMPLE,
+    )  # fmt: skip
+    assert result["complete"] is True
+    error = recorded_error(bag)
+    assert error < 0.3 * lockstep_error(example, 1e9)  # what it is without the adaptation
+    if result["cycles_per_second"] < ENOUGH:
+        pytest.skip(f"{result['cycles_per_second']:.0f} cycles a second: the machine is too busy")
+    assert error < 2.0 * lockstep_error(example, 0.0)
+
+
+def test_options_of_a_robot_without_one():
+    done = forked_fpt("run", "tora", "--efforts", "/commands")
+    assert done.returncode == 2
+    assert "they go with --no-plant" in done.stderr
+    done = forked_fpt("run", "tora", "--no-plant", "--composed")
+    assert done.returncode == 2
+    assert "--composed" in done.stderr
