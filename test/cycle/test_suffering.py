@@ -200,7 +200,8 @@ def test_a_third_of_the_samples_lost_in_the_loop_costs_little():
 
 def test_what_is_unknown_is_not_learnt_from():
     """In a cycle whose sample was lost the response is unknown, and r stays."""
-    loop = load("tora", settings=["plant_simulator.sensors.kinds=[lost]"], duration=0.6).loop()
+    lossy = "plant_simulator.sensors.kinds=[lost]", "plant_simulator.sensors.lost.together=true"
+    loop = load("tora", settings=lossy, duration=0.6).loop()
     before, unknown = None, 0
     for topic, frame in Run(loop).frames():
         if topic is JOINT_STATES:
