@@ -56,7 +56,10 @@ def test_every_page_is_in_the_navigation_and_every_entry_is_a_page():
 
 def test_the_page_of_commands_has_every_command_with_its_options():
     page = site_pages.commands()
-    assert re.findall(r"^## fpt (\w+)$", page, re.MULTILINE) == [name for name, *_ in COMMANDS]
+    assert re.findall(r"^## fpt ([\w-]+)$", page, re.MULTILINE) == [
+        *(name for name, *_ in COMMANDS),
+        "params",
+    ]
     assert "| `--record DIR` |" in page
 
 

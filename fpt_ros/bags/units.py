@@ -30,14 +30,7 @@ def plant_of(parameters: Mapping[str, Mapping[str, Value]]) -> Plant | None:
     """The plant that a recording of ours names; ``None``: it names none that is known here."""
     values = parameters.get("plant_simulator", {})
     try:
-        entry = PLANTS[str(values["plant"])]
-        # a recording holds no empty lists: they have no type in ROS
-        left_out = {
-            f"exact.{each.name}": each.default
-            for each in entry.parameters
-            if each.default is not None
-        }
-        return made(entry, {**left_out, **values}, "exact")
+        return made(PLANTS[str(values["plant"])], values, "exact")
     except (BadInput, KeyError, TypeError):
         return None
 

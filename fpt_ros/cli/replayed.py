@@ -81,7 +81,7 @@ def show(bag: Path, outcomes: Mapping[str, Outcome], record: Path | None, json: 
 
 def _part(one: Outcome) -> dict[str, Any]:
     return {
-        "equal": one.equal,
+        "equal": one.equal if one.cycles else None,
         "cycles": one.cycles,
         "differing": one.differing,
         "first_difference": _difference(one.first),

@@ -68,8 +68,9 @@ def run(
 ) -> None:
     """Run an experiment as a graph of ROS 2 nodes over DDS, a process each.
 
-    Examples: fpt run tora --record /tmp/tora && fpt report /tmp/tora;
-    fpt run arm.yaml --no-plant --efforts /effort_controller/commands
+    Example: fpt run tora --record /tmp/tora && fpt report /tmp/tora
+
+    A robot: fpt run arm.yaml --no-plant --efforts /effort_controller/commands
     """
     from fpt_ros.bags.split import Split as Parsed
     from fpt_ros.cli.output import print_json, print_result

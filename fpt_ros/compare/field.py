@@ -204,11 +204,12 @@ def _noisy(one: Experiment) -> bool:
 def _grades(word: str, base: Experiment, one: Experiment) -> list[Circumstance]:
     """The same circumstance with less and with more noise or delay; none: it has neither."""
     plant, shows = one.nodes["plant_simulator"], str(one.about["shows"])
+    label = Path(word).stem if is_path(word) else word
     sigma = cast("float", plant["noise.position"])
     if sigma and sigma != base.nodes["plant_simulator"]["noise.position"]:
         return [
             Circumstance(
-                f"noise {sigma * part:.3g}",
+                f"{label} {sigma * part:.3g}",
                 word,
                 _with_noise(one, part),
                 shows,
@@ -222,7 +223,7 @@ def _grades(word: str, base: Experiment, one: Experiment) -> list[Circumstance]:
     if late and late != base.nodes["plant_simulator"]["measurement_delay"]:
         return [
             Circumstance(
-                f"delay {cycles}",
+                f"{label} {cycles}",
                 word,
                 _with_delay(one, cast("int", late), cycles),
                 shows,

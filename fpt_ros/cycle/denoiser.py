@@ -103,7 +103,13 @@ def filter_motion(
         out.accelerations,
     )
     if constants.healing.heals:
-        keep_estimate(memory.healing, out.positions, out.velocities, out.accelerations)
+        keep_estimate(
+            constants.healing,
+            memory.healing,
+            out.positions,
+            out.velocities,
+            out.accelerations,
+        )
     for i in range(len(q)):
         deformed[i] = math.nan
     if constants.synchronised:

@@ -45,11 +45,11 @@ PARAMETERS = (
     ),
 )
 
-POSITION, VELOCITY, RESPONSE, IN_A_ROW, DOUBT, HAS_VELOCITY = range(6)
-"""Rows of the memory: the last estimate, healed samples in a row, cycles of doubt that are left,
-whether velocities are measured."""
+POSITION, VELOCITY, RESPONSE, IN_A_ROW, GAP, DOUBT, HAS_VELOCITY = range(7)
+"""Rows of the memory: the last estimate, healed samples in a row, those before this good one,
+cycles of doubt that are left, whether velocities are measured."""
 
-ROWS = 6
+ROWS = 7
 
 
 class HealingConstants(NamedTuple):
@@ -120,15 +120,23 @@ def heal(
             elif memory[HAS_VELOCITY, i] > 0.0:
                 out_v[i] = expected_v
             memory[IN_A_ROW, i] += 1.0
+            memory[GAP, i] = 0.0
             memory[DOUBT, i] = constants.pause + 1.0
         else:
             out_q[i], out_v[i] = q[i], v[i]
+            memory[GAP, i] = memory[IN_A_ROW, i]
             memory[IN_A_ROW, i] = 0.0
 
 
 @helper
-def keep_estimate(memory: Matrix, q: Vector, v: Vector, response: MutableVector) -> None:
-    """Remember what the filter found; while there is doubt the response is not known."""
+def keep_estimate(
+    constants: HealingConstants, memory: Matrix, q: Vector, v: Vector, response: MutableVector
+) -> None:
+    """Remember what the filter found; while there is doubt the response is not known.
+
+    Behind a gap a difference holds all that the prediction lacked, as if it were of one cycle: it
+    is spread over the cycles of the gap, in which r was held, so that it is their mean response.
+    """
     for i in range(len(q)):
         memory[POSITION, i] = q[i]
         memory[VELOCITY, i] = v[i]
@@ -136,4 +144,7 @@ def keep_estimate(memory: Matrix, q: Vector, v: Vector, response: MutableVector)
             memory[DOUBT, i] -= 1.0
             response[i] = math.nan
         else:
+            before = memory[RESPONSE, i] if constants.predicts else 0.0
+            if memory[GAP, i] > 0.0:
+                response[i] = before + (response[i] - before) / (memory[GAP, i] + 1.0)
             memory[RESPONSE, i] = response[i]

@@ -36,22 +36,25 @@ def check_laws(loop: Loop) -> None:
     key = laws_of(loop)
     if key in _good:
         return
+    told: set[law_code.Remark] = set()  # an integrator calls the response, which has its own trial
     for trial in trials(loop):
-        _check(trial)
+        _check(trial, told)
     if len(_good) >= KEPT:
         _good.pop(next(iter(_good)))
     _good[key] = None
 
 
-def _check(trial: Trial) -> None:
+def _check(trial: Trial, told: set[law_code.Remark]) -> None:
     law, names = trial.law, trial.takes
     if not callable(law):
         raise BadInput(f"{trial.name} is a {type(law).__name__}, not a function")
     code = law_code.read(law)
     for file, line, text in code.mistakes:
         raise BadInput(f"{trial.name} ({file}, line {line}) {text}")
-    for file, line, text in code.warnings:
-        notice(f"{trial.name} ({file}, line {line}) {text}")
+    for remark in code.warnings:
+        if remark not in told:
+            told.add(remark)
+            notice(f"{trial.name} ({remark.file}, line {remark.line}) {remark.text}")
     try:
         signature(law).bind(*names)
     except (TypeError, ValueError) as error:

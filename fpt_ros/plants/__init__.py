@@ -145,8 +145,17 @@ MODELS: Kind[Model | Factory[Model]] = Kind((Model, Factory), "models")
 
 
 def made(entry: Made | Factory[Made], values: Values, prefix: str) -> Made:
-    """The plant or model itself, for the checked parameters ``prefix.NAME``."""
+    """The plant or model itself, for the checked parameters ``prefix.NAME``.
+
+    A recording holds no empty lists, which have no type in ROS: what is left out has its default.
+
+    Raises:
+        KeyError: a parameter without default is not there.
+    """
     if not isinstance(entry, Factory):
         return entry
-    own: dict[str, Value] = {p.name: values[f"{prefix}.{p.name}"] for p in entry.parameters}
+    own: dict[str, Value] = {}
+    for each in entry.parameters:
+        name = f"{prefix}.{each.name}"
+        own[each.name] = values[name] if each.default is None else values.get(name, each.default)
     return entry.make(own)

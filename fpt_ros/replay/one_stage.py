@@ -63,7 +63,7 @@ def answers(recorded: Recorded, stage: Stage) -> Iterator[Answered]:
             return
         try:
             frame = answer(cycle)
-        except (Lost, Diverged) as error:
+        except (Lost, Diverged, MalformedMessage) as error:
             yield Answered(cycle, None, str(error), isinstance(error, Diverged))
             return
         yield Answered(cycle, frame)
@@ -181,13 +181,12 @@ class _Plant:
             self._commands = [*self._commands[-self._remembered :], command]
         elif not self._realtime:
             raise Lost(f"the command of cycle {before.number} is not in the recording")
-        shown = cycle.messages.get(JOINT_STATES.name)
-        if not self._realtime or shown is None:
-            return self._commands[-1]
-        told = self._own.decode(shown)
-        assert isinstance(told, JointStates)
         candidates = [*reversed(self._commands), self._plant.safe_command(before.stamp)]
-        for candidate in candidates:
-            if list(candidate.effort) == list(told.effort):
-                return candidate
+        shown = cycle.messages.get(JOINT_STATES.name)
+        if self._realtime and shown is not None:
+            told = self._own.decode(shown)
+            assert isinstance(told, JointStates)
+            for candidate in candidates:
+                if list(candidate.effort) == list(told.effort):
+                    return candidate
         return candidates[0]

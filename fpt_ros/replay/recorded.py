@@ -63,7 +63,7 @@ class Recorded:
         """Read what it says of itself.
 
         Raises:
-            BadInput: it is not a recording of the loop, or begins in the middle of a run.
+            BadInput: it is not a recording of the loop.
         """
         self.path = path
         bag = Bag(path)

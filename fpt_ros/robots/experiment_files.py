@@ -23,7 +23,7 @@ TEMPLATE, GAIN = "panda", -3.16
 """Whose files are taken, and its A: the gains of all variants keep their ratio to it."""
 
 DISTANCE = 75.0
-"""The template's :attr:`~fpt_ros.robots.motion.Motion.distance`."""
+"""The template's ``Motion.distance``."""
 
 DAMPING = 30.0
 """K_D of Slotine and Li's control over a joint's inertia [1/s]: twice the template's lambda."""

@@ -4,8 +4,8 @@ import pytest
 from command import forked_fpt
 
 CASES = [
-    (["simulate", "tor"], "no experiment 'tor': there are cart_beam_hamper, "),
-    (["run", "tor"], "no experiment 'tor': there are cart_beam_hamper, "),
+    (["simulate", "tor"], "no experiment 'tor': there are acrobot, cart_beam_hamper, "),
+    (["run", "tor"], "no experiment 'tor': there are acrobot, cart_beam_hamper, "),
     (
         ["simulate", "tora", "--variant", "x"],
         "tora has no variant 'x': it has adaptive, chatter, ",
@@ -33,7 +33,10 @@ CASES = [
     (["simulate", "tora", "--set", "fpt_deformer.A=[1"], "is not a YAML value"),
     (["simulate", "tora", "--set", "fpt_deformer.K=-1"], "it takes a number > 0 and <= 2"),
     (["simulate", "tora", "--set", "fpt_deformer.K=1.99"], "give no fixed point"),
-    (["simulate", "tora", "--set", "fpt_deformer.transformation=x"], "none, atanh, rfpt, sgfpt"),
+    (
+        ["simulate", "tora", "--set", "fpt_deformer.transformation=x"],
+        "none, atanh, rfpt, rotation, sgfpt",
+    ),
     (["simulate", "tora", "--set", "plant_simulator.dt=0"], "plant_simulator.dt: 0 is not valid"),
     (["simulate", "tora", "--set", "plant_simulator.dt=1e-10"], "whole number of nanoseconds"),
     (["simulate", "tora", "--duration", "0"], "plant_simulator.duration: 0.0 is not valid"),

@@ -29,7 +29,7 @@ def test_simulate_json_is_what_the_design_agreed():
 def test_list_names_everything():
     experiments = {e["experiment"]: e for e in forked_fpt_json("list")["experiments"]}
     assert list(experiments["tora"]["variants"]) == [
-        "adaptive", "chatter", "guarded", "nonadaptive", "strong",
+        "adaptive", "chatter", "guarded", "lossy", "nonadaptive", "rotation", "rough", "strong",
     ]  # fmt: skip
     assert set(experiments["vdp_rfpt"]["variants"]) == {
         "adaptive", "no_rfpt", "fixed_model", "fixed_model_no_rfpt", "undisturbed",

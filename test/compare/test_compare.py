@@ -42,12 +42,12 @@ def test_the_field_of_an_arm():
         "saturated",
     ]
     assert [group[0].name for group in graded] == [
-        "delay 1",
-        "delay 2",
-        "delay 3",
-        "noise 1e-06",
-        "noise 1e-05",
-        "noise 0.0001",
+        "delayed 1",
+        "delayed 2",
+        "delayed 3",
+        "noisy 1e-06",
+        "noisy 1e-05",
+        "noisy 0.0001",
     ]
     pid = found.controllers[names.index("pid")]
     loud = found.load(pid, graded[5][0])

@@ -106,8 +106,8 @@ def test_a_plant_of_order_one(kind):
     plant.advance(command, 0)
     found = solve_ivp(
         lambda t, y: [
-            5.0 * (y[1] - y[0]) + 1.0,
-            y[0] * (40.0 - y[2]) - y[1] - 2.0,
+            10.0 * (y[1] - y[0]) + 1.0,
+            y[0] * (28.0 - y[2]) - y[1] - 2.0,
             y[0] * y[1] - 8.0 / 3.0 * y[2] + 3.0,
         ],
         (0.0, 0.01),

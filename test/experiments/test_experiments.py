@@ -37,7 +37,9 @@ def test_the_base_file_is_complete_and_typed():
 
 def test_available_lists_the_base_first():
     found = experiment.available()
-    assert found["tora"] == ["adaptive", "chatter", "guarded", "nonadaptive", "rotation", "strong"]
+    assert found["tora"] == [
+        "adaptive", "chatter", "guarded", "lossy", "nonadaptive", "rotation", "rough", "strong",
+    ]  # fmt: skip
     assert found["vdp_rfpt"][0] == "adaptive"
     assert set(found["vdp_rfpt"]) == {
         "adaptive", "no_rfpt", "fixed_model", "fixed_model_no_rfpt", "undisturbed"

@@ -18,7 +18,7 @@ def test_a_motion_out_of_the_workspace_is_refused_whatever_came_before():
 def test_unknown_names_list_what_there_is():
     assert refused("toar").startswith("no experiment 'toar': there are ")
     assert ", ".join(experiment.available()) in refused("toar")
-    known = "adaptive, chatter, guarded, nonadaptive, rotation, strong"
+    known = "adaptive, chatter, guarded, lossy, nonadaptive, rotation, rough, strong"
     expected = f"tora has no variant 'weak': it has {known}"
     assert refused("tora", "weak") == expected
     assert refused("tora", "../x") == "../x cannot be read: No such file or directory"

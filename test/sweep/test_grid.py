@@ -80,7 +80,7 @@ def test_random_log_is_uniform_in_the_logarithm():
         ("plant_simulator.substeps=1:2:3", "1.5 is not valid, it takes an integer"),
         ("plant_simulator.initial_position[3]=0:1:2", "has 3 elements"),
         ("fpt_deformer.A[0]=0:1:2", "is no list of numbers"),
-        ("fpt_deformer.transformation=none,x", "none, atanh, rfpt, sgfpt"),
+        ("fpt_deformer.transformation=none,x", "none, atanh, rfpt, rotation, sgfpt"),
     ],
 )
 def test_what_is_no_grid(text, complaint):

@@ -18,12 +18,12 @@ DRAWN = numbers("2.1-2.33, 3.1-3.34, 4.3-4.6, 4.9-4.28, 5.2-5.3, 6.1-6.5")
 def test_every_experiment_and_variant_of_the_thesis_is_used():
     setups = [s for claim in CLAIMS.values() for s in claim.runs.values() if isinstance(s, Setup)]
     used = {(setup.name, setup.variant) for setup in setups}
-    of_thesis = {
-        name: variants
+    there = {
+        (name, variant)
         for name, variants in available().items()
-        if not str(load(name).about["thesis"]).startswith("not in it")
+        for variant in variants
+        if not str(load(name, variant).about["thesis"]).startswith("not in it")
     }
-    there = {(name, variant) for name, variants in of_thesis.items() for variant in variants}
     assert there - used == set()
 
 

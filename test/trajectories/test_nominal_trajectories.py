@@ -26,7 +26,9 @@ def nominal(name, amplitude, frequency, t, **own):
 
 def test_all_registered_trajectories_are_tested_here():
     here = {"constant", "cosines", "sine", "spline"}
-    elsewhere = {"fitzhugh_nagumo", "blended_sines"}  # in files of their own
+    integrated = {"fitzhugh_nagumo", "duffing", "lorenz"}
+    of_use = {"chirp", "minimum_jerk", "recorded", "step", "waypoints"}
+    elsewhere = integrated | of_use | {"blended_sines", "inverse_kinematics"}
     assert set(TRAJECTORIES.names()) == here | elsewhere
 
 

@@ -44,7 +44,7 @@ from fpt_ros.parameters import Parameter, Values, integer, number
 PARAMETERS = (
     Parameter("members", "filters of the ladder", 14, minimum=2, maximum=40, live=False),
     Parameter("slowest", "bandwidth of the slowest filter", 2.5e-3, unit="rad/sample", above=0.0),
-    Parameter("fastest", "bandwidth of the fastest filter", 4.0, unit="rad/sample", above=0.0),
+    Parameter("fastest", "bandwidth of the fastest filter", 3.0, unit="rad/sample", above=0.0),
     Parameter("gate", "standard deviations beyond which it may be an impulse", 5.0, above=2.0),
 )
 
@@ -54,11 +54,9 @@ FORGOTTEN, MOST_FORGOTTEN = 0.3, 0.5
 """Share of the evidence that a sample forgets, times the bandwidth; and at most."""
 TEMPERATURE = 3.0
 """Weights are exp(-evidence / 3), the evidence being -2 log likelihood."""
-PRIOR = 10.0
+PRIOR = 12.0
 """Evidence that a step to the faster neighbour has to bring, times 1 - K: the noise of its
 acceleration is several times as great."""
-PRICE = 1.1
-"""Of the logarithm of the innovation's variance."""
 TRACKING = 0.01
 """Relative step of the medians."""
 FADING = 0.5e-3
@@ -107,7 +105,7 @@ def prepare(values: Values, n: int, dt: float) -> tuple[float, ...]:
         raise BadInput(f"slowest = {slowest:g} is not valid: it is less than fastest, {fastest:g}")
     ladder = np.geomspace(slowest, fastest, integer(values, "members"))
     gains = [steady_gains(STATES, h ** (2 * STATES), 1.0, 1.0) for h in ladder]
-    price = [-PRICE * math.log1p(-float(g[0])) for g in gains]
+    price = [-math.log1p(-float(g[0])) for g in gains]
     order = float(integer(values, ORDER.name))
     constants = [float(len(ladder)), number(values, "gate"), order, 1.0 / dt]
     for h, g, own, faster in zip(ladder, gains, price, [*price[1:], price[-1]], strict=True):
