@@ -158,6 +158,8 @@ def _priority() -> Finding:
 
 
 def _others() -> Finding:
+    if _domain().state == WRONG:  # Fast DDS ends the process there
+        return Finding("others", WARNING, "not looked for in a domain that there is not")
     from fpt_ros.nodes.asking import graph
 
     with graph() as asked:

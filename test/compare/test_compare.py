@@ -114,7 +114,7 @@ def test_what_is_tuned_of_a_controller():
 
 def test_a_tuned_controller_is_better_on_a_seed_that_it_has_not_seen():
     settings = ("recorder.settle_time=1.0",)
-    asked = define("noisy_tora", ["adaptive"], [], settings, 2.0, 6, 0, 1e6)
+    asked = define("noisy_tora", ["adaptive"], [], settings, 2.0, 16, 0, 1e6)
     plain = define("noisy_tora", ["adaptive"], [], settings, 2.0, 0, 0, 1e6)
     tuned, before = run_task(asked.plan, 0), run_task(plain.plan, 0)
     assert "denoiser.densities[0]" in tuned["tuning"]["before"]

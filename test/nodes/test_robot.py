@@ -9,6 +9,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+import samples
 from command import forked_fpt, fpt_json
 
 from fpt_ros.bags.reader import read_run
@@ -20,7 +21,10 @@ DURATION = 6.0
 SETTINGS = ("denoiser.method=finite_difference",)
 FAULTS = ("--jitter", "0.2", "--lost", "0.01", "--no-velocity", "--best-effort")
 ENOUGH = 450.0
-"""Cycles a second: below it the machine is too busy for 500 Hz, and a bound on the error too."""
+"""Cycles a second: below it the machine is too busy for 500 Hz."""
+
+LOST = 2.0
+"""rms [rad] of an arm that follows, if badly; of those that were lost it was 13 to 1,000."""
 
 
 @pytest.fixture
@@ -98,9 +102,11 @@ def test_a_robot_of_five_joints_with_jitter_losses_and_no_velocity(tmp_path, exa
     )  # fmt: skip
     assert result["complete"] is True
     error = recorded_error(bag)
+    assert error < LOST
+    if not samples.whole:
+        return  # how precise it is depends on what else the machine does
+    assert result["cycles_per_second"] > ENOUGH
     assert error < 0.3 * lockstep_error(example, 1e9)  # what it is without the adaptation
-    if result["cycles_per_second"] < ENOUGH:
-        pytest.skip(f"{result['cycles_per_second']:.0f} cycles a second: the machine is too busy")
     assert error < 2.0 * lockstep_error(example, 0.0)
 
 
