@@ -13,10 +13,7 @@ import struct
 import sys
 from array import array
 from collections.abc import Callable
-from datetime import datetime
-from functools import reduce
 from itertools import pairwise
-from pathlib import Path
 from time import time_ns
 
 from diagnostic_msgs.msg import DiagnosticStatus
@@ -29,13 +26,12 @@ from fpt_ros.cycle.arrivals import Arrivals
 from fpt_ros.cycle.matcher import under_way
 from fpt_ros.errors import RunFailed
 from fpt_ros.experiments import description
-from fpt_ros.experiments.experiment import BASE, complete
-from fpt_ros.experiments.parameter_file import ParameterFile, read
 from fpt_ros.messages.cdr import Codec, MalformedMessage
 from fpt_ros.messages.frames import SECOND
 from fpt_ros.messages.topics import DEPTH, JOINT_STATES, LOOP_TOPICS, TUNING, Topic
 from fpt_ros.nodes.loop_node import LoopNode, message_class
 from fpt_ros.nodes.qos import HEARD, loop_qos, sensor_qos
+from fpt_ros.nodes.recorded_run import reason_to_end, recorded_run
 from fpt_ros.nodes.recorded_until import BEGUN, RECORDED_UNTIL, TIME, encode_time
 from fpt_ros.nodes.ros_parameters import declare
 from fpt_ros.nodes.snapshot import Snapshot
@@ -70,25 +66,15 @@ class Recorder(LoopNode):
         values = declare(self, description.parameters)
         self._lockstep = values.get("realtime") is not True
         self._robot = values.get("robot") is True
-        if not self._lockstep:
-            os.nice(NICE)
         self._cycles = integer(values, "cycles")
-        files = _parameter_files()
-        experiment = word(values, "experiment") or (files[0].stem if files else "run")
-        overlays = [path.stem.partition(".")[2] for path in files if "." in path.stem]
-        variant = word(values, "variant") or (overlays[-1] if overlays else BASE)
-        directory = word(values, "directory") or (
-            f"{experiment}_{variant}_{datetime.now():%Y-%m-%d_%H-%M-%S}"
-        )
-        self._parameters = {
-            **complete(reduce(ParameterFile.overlay, map(read, files), ParameterFile()))
-        }
+        run = recorded_run(values)
+        self._parameters = run.parameters
         self._writer = BagWriter(
-            Path(directory),
+            run.directory,
             self._parameters,
             {
-                "experiment": experiment,
-                "variant": variant,
+                "experiment": run.experiment,
+                "variant": run.variant,
                 "engine": "graph",
                 "version": __version__,
                 "namespace": self.get_namespace(),
@@ -211,6 +197,11 @@ class Recorder(LoopNode):
         if name == CHANGES:
             self._changes = subscription
 
+    def begin(self) -> None:
+        """In real time the loop comes first."""
+        if not self._lockstep:
+            os.nice(NICE)
+
     def housekeeping(self) -> None:
         """Begin when all is there; acknowledge the last few cycles too."""
         super().housekeeping()
@@ -265,7 +256,7 @@ class Recorder(LoopNode):
         """
         error = sys.exc_info()[1]
         self._take_what_has_come()
-        reason = _reason() or (str(error) if error is not None else "")
+        reason = reason_to_end() or (str(error) if error is not None else "")
         if self._lost is not None:
             raise self._lost
         if not reason and len(self._stamps) < self._cycles:
@@ -286,23 +277,6 @@ class Recorder(LoopNode):
             return False
         shortest = min(b - a for a, b in pairwise(stamps))
         return stamps[-1] - stamps[0] >= (self._cycles - 1) * shortest > 0
-
-
-def _reason() -> str:
-    """What the process that started the graph says about its end."""
-    descriptor = os.environ.get("FPT_REASON_FD")
-    if not descriptor:
-        return ""
-    try:
-        return os.read(int(descriptor), 65536).decode()
-    except OSError:
-        return ""
-
-
-def _parameter_files() -> list[Path]:
-    """The parameter files of the command line: they hold the sections of all nodes."""
-    pairs = zip(sys.argv, sys.argv[1:], strict=False)
-    return [Path(path) for flag, path in pairs if flag == "--params-file"]
 
 
 def main() -> None:

@@ -10,9 +10,9 @@ from recorded_changes import INFO, recorded
 
 from fpt_ros.bags.reader import info, read_run
 from fpt_ros.errors import BadInput
-from fpt_ros.messages.frames import Command, Frame, JointStates
+from fpt_ros.messages.frames import Command, Frame
 from fpt_ros.messages.topics import COMMAND, DESIRED, JOINT_STATES, Topic
-from fpt_ros.replay.compared import Difference, first_field
+from fpt_ros.replay.compared import Difference
 from fpt_ros.replay.recorded import Recorded
 from fpt_ros.replay.replayed import Replay
 from fpt_ros.replay.rerun import rerun
@@ -280,24 +280,3 @@ def test_a_recorder_that_came_late_to_a_run_in_real_time(tmp_path: Path) -> None
 
 
 # --- comparing
-
-
-def test_the_first_field() -> None:
-    a = JointStates(7, ("q1", "q2"), (1.0, 2.0), (math.nan, 0.0), ())
-    assert first_field(JOINT_STATES, a, a._replace(velocity=(math.nan, 0.0))) is None
-    assert first_field(JOINT_STATES, a, a._replace(velocity=(math.nan, -0.0))) == (
-        "velocity.q2",
-        0.0,
-        -0.0,
-    )
-    assert first_field(JOINT_STATES, a, a._replace(names=("q2", "q1"))) == (
-        "names",
-        "q1, q2",
-        "q2, q1",
-    )
-    assert first_field(JOINT_STATES, a, a._replace(effort=(1.0, 2.0))) == (
-        "effort",
-        "0 numbers",
-        "2 numbers",
-    )
-    assert first_field(JOINT_STATES, None, a) == ("header.stamp", None, 7e-9)
