@@ -26,6 +26,7 @@ from fpt_ros.experiments.experiment import load
 from fpt_ros.messages.cdr import Codec
 from fpt_ros.nodes.loop_node import LoopNode, message_class
 from fpt_ros.nodes.plant_node import WINDOW
+from fpt_ros.nodes.qos import loop_qos
 from fpt_ros.nodes.recorded_until import BEGUN, RECORDED_UNTIL, TIME, decode_time
 from fpt_ros.nodes.stage_node import CHANGES
 
@@ -46,7 +47,9 @@ class Feeder(LoopNode):
         kind = message_class("rcl_interfaces/msg/ParameterEvent")
         self._changes = self.create_publisher(kind, CHANGES, 10)
         self.begun, self.until = False, -1
-        self.subscribe_raw(RECORDED_UNTIL, TIME, 1, self._on_recorded)
+        self._recorded = self.create_subscription(
+            message_class(TIME), RECORDED_UNTIL, self._on_recorded, loop_qos(1), raw=True
+        )
         self.executor_of_it = SingleThreadedExecutor()
         self.executor_of_it.add_node(self)
 
@@ -61,8 +64,7 @@ class Feeder(LoopNode):
         """Publish so many cycles; the seconds until they were recorded."""
         while not self.begun:
             self.executor_of_it.spin_once(timeout_sec=0.1)
-        (subscription,) = self.loop_subscriptions
-        take, kind = subscription.handle.take_message, subscription.msg_type
+        take, kind = self._recorded.handle.take_message, self._recorded.msg_type
         started = time.monotonic()
         for k in range(cycles):
             for publish, codec, frame in self._cycle:
