@@ -13,7 +13,10 @@ from fpt_ros.plants.mujoco.description_file import followers, locate, named, rea
 from fpt_ros.plants.mujoco.library import bindings
 
 FILE = Parameter(
-    "file", "MJCF or URDF file, or the name of an arm that ships", kind="str", live=False
+    "file",
+    "MJCF or URDF file, or the name of an arm that ships or of MuJoCo Menagerie",
+    kind="str",
+    live=False,
 )
 
 PARAMETERS = (

@@ -6,6 +6,7 @@ from typing import Any, NamedTuple
 from xml.etree import ElementTree
 
 from fpt_ros.errors import BadInput
+from fpt_ros.plants.mujoco import menagerie
 from fpt_ros.plants.mujoco.library import bindings
 
 ARMS = Path(__file__).parent / "arms"
@@ -17,20 +18,23 @@ def shipped() -> tuple[str, ...]:
 
 
 def locate(file: str, prefix: str = "") -> Path:
-    """The path of a file, or of an arm that ships.
+    """The path of a file, of an arm that ships, or of a robot of MuJoCo Menagerie.
 
     Raises:
-        BadInput: there is neither; ``prefix`` is what the message begins with.
+        BadInput: there is none of these; ``prefix`` is what the message begins with.
     """
     if file in shipped():
         return ARMS / f"{file}.xml"
     path = Path(file).expanduser()
-    if not path.is_file():
-        raise BadInput(
-            f"{prefix}there is no file '{file}', and no arm of this name ships: "
-            f"{', '.join(shipped())}"
-        )
-    return path.resolve()
+    if path.is_file():
+        return path.resolve()
+    of_others = menagerie.found(file, prefix)
+    if of_others is not None:
+        return of_others
+    raise BadInput(
+        f"{prefix}there is no file '{file}', and no arm of this name ships: "
+        f"{', '.join(shipped())} ({menagerie.FOLDER} may name a checkout of {menagerie.SOURCE})"
+    )
 
 
 def _parsed(text: bytes) -> ElementTree.Element:

@@ -95,6 +95,28 @@ def test_no_such_file_names_what_ships():
         factory.make(resolve(factory.parameters, {"file": "robot.xml"}, "plant"))
 
 
+def test_a_robot_of_the_menagerie(tmp_path, monkeypatch):
+    folder = tmp_path / "mujoco_menagerie" / "maker_arm"
+    folder.mkdir(parents=True)
+    for name in ("arm.xml", "scene.xml"):
+        (folder / name).write_text(MJCF.format('axis="0 1 0" damping="1"'))
+    monkeypatch.setenv("MUJOCO_MENAGERIE", str(folder.parent))
+    factory = PLANTS["mujoco"]
+
+    def made(file):
+        return factory.make(resolve(factory.parameters, {"file": file}, "plant"))
+
+    for name in ("maker_arm", "maker_arm/arm", "maker_arm/arm.xml"):
+        assert made(name).coordinates == ("j",)
+    (folder / "hand.xml").write_text(MJCF)
+    with pytest.raises(BadInput, match=r"has the files arm, hand: maker_arm/FILE$"):
+        made("maker_arm")
+    with pytest.raises(BadInput, match=r"maker_arm/leg: maker_arm of the menagerie has the files"):
+        made("maker_arm/leg")
+    with pytest.raises(BadInput, match=r"no file 'other_arm'.*MUJOCO_MENAGERIE may name"):
+        made("other_arm")
+
+
 def test_without_mujoco_it_says_what_to_install(monkeypatch):
     from fpt_ros.plants.mujoco import library
 
