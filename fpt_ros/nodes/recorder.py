@@ -63,6 +63,7 @@ class Recorder(LoopNode):
 
     def __init__(self) -> None:
         super().__init__(description.NODE)
+        self.takes_in_turn = True
         values = declare(self, description.parameters)
         self._lockstep = values.get("realtime") is not True
         self._robot = values.get("robot") is True
