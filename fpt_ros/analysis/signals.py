@@ -9,10 +9,11 @@ from collections.abc import Mapping
 import numpy as np
 from numpy.typing import NDArray
 
+from fpt_ros.bags import units
 from fpt_ros.errors import BadInput
 from fpt_ros.messages.frames import SECOND
 from fpt_ros.parameters import Value
-from fpt_ros.plants import MODELS, PLANTS, Model, Plant, made
+from fpt_ros.plants import MODELS, Model, Plant, made
 from fpt_ros.runs.run import Array, Run, Series
 
 Stamps = NDArray[np.int64]
@@ -100,11 +101,7 @@ def realised_response(run: Run, coordinate: str) -> tuple[Array, Array]:
 
 def plant_of(run: Run) -> Plant | None:
     """The run's plant; ``None`` where it is not installed here."""
-    try:
-        plant = PLANTS[str(parameter(run, "plant_simulator", "plant"))]
-        return made(plant, run.parameters.get("plant_simulator", {}), "exact")
-    except (BadInput, KeyError):
-        return None
+    return units.plant_of(run.parameters)
 
 
 def unit(run: Run, coordinate: str) -> str:

@@ -1,8 +1,6 @@
 """Recording a run of the in-process engine: the same file that the recorder makes of the graph."""
 
 from pathlib import Path
-from types import TracebackType
-from typing import Self
 
 from fpt_ros.bags.writer import BagWriter
 from fpt_ros.cycle.trajectory_generator import TrajectoryGenerator
@@ -13,7 +11,7 @@ from fpt_ros.runs.chunks import Chunk, frames
 from fpt_ros.runs.run import describe
 
 
-class EngineRecording:
+class EngineRecording(BagWriter):
     """Writes the cycles of an engine to a recording, chunk by chunk.
 
     A context: the recording is closed at its end, with ``reason`` or with what was raised.
@@ -24,31 +22,16 @@ class EngineRecording:
     """
 
     def __init__(self, directory: Path, experiment: Experiment) -> None:
-        self.reason = ""
         self._sharing = bool(experiment.nodes[TrajectoryGenerator.name]["time_sharing"])
         self._codecs = {topic.name: Codec(topic) for topic in LOOP_TOPICS}
         info = describe(experiment, "in_process", "")
         del info["complete"], info["reason"]
-        self._writer = BagWriter(directory, experiment.nodes, {**info, "clock": "lockstep"})
+        super().__init__(directory, experiment.nodes, {**info, "clock": "lockstep"})
 
     def take(self, chunk: Chunk) -> None:
         """Write the messages of the next cycles, in the order of events."""
         for topic, frame in frames(chunk, self._sharing):
             name = f"/{topic.name}"
-            self._writer.add_topic(name, topic.type, DEPTH)
+            self.add_topic(name, topic.type, DEPTH)
             data = self._codecs[topic.name].encode(frame)
-            self._writer.write(name, topic.type, frame.stamp, data)
-
-    def __enter__(self) -> Self:
-        return self
-
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        trace: TracebackType | None,
-    ) -> None:
-        if error is not None:
-            self._writer.__exit__(kind, error, trace)
-        else:
-            self._writer.close(self.reason)
+            self.write(name, topic.type, frame.stamp, data)

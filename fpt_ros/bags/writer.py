@@ -37,6 +37,10 @@ class BagWriter:
 
     The file is whole after every chunk: a process that is killed loses what it wrote in the last
     second at most, and with ``aside`` nothing. Not shared between threads.
+
+    Attributes:
+        reason: why the run was incomplete, where the context ends without an error; empty: it was
+            whole.
     """
 
     def __init__(
@@ -60,7 +64,7 @@ class BagWriter:
             BadInput: the directory exists or cannot be created.
         """
         self.directory = directory
-        self.closed = False
+        self.closed, self.reason = False, ""
         self._info, self._split, self._aside = dict(info), split, aside
         self._topics: dict[str, _Topic] = {}
         self._channels: dict[str, int] = {}
@@ -186,7 +190,7 @@ class BagWriter:
         trace: TracebackType | None,
     ) -> None:
         if error is None:
-            self.close()
+            self.close(self.reason)
             return
         reason = "interrupted" if isinstance(error, KeyboardInterrupt) else str(error)
         # what ended the run matters more than what then happens to its recording

@@ -2,8 +2,6 @@
 
 from collections import deque
 from pathlib import Path
-from types import TracebackType
-from typing import Self
 
 from fpt_ros.bags import changes
 from fpt_ros.bags.writer import BagWriter
@@ -14,7 +12,7 @@ from fpt_ros.replay.recorded import Cycle
 from fpt_ros.replay.replayed import Replay
 
 
-class ReplayWriter:
+class ReplayWriter(BagWriter):
     """Writes it, cycle by cycle, as a recording that every command reads. A context."""
 
     def __init__(self, directory: Path, replay: Replay) -> None:
@@ -27,8 +25,8 @@ class ReplayWriter:
         ended = ("complete", "reason", "missing")
         info = {key: value for key, value in recorded.info.items() if key not in ended}
         info["replayed"] = replay.stage.name
-        self._writer = BagWriter(directory, recorded.parameters, info)
-        self._prefix, self._reason = recorded.prefix, recorded.info["reason"]
+        super().__init__(directory, recorded.parameters, info)
+        self._prefix, self.reason = recorded.prefix, recorded.info["reason"]
         self._changes = deque(sorted(recorded.changes, key=lambda change: change.stamp))
         self._codecs = {topic.name: Codec(topic) for topic in LOOP_TOPICS}
 
@@ -38,26 +36,12 @@ class ReplayWriter:
             change = self._changes.popleft()
             name = f"{self._prefix}/{changes.TOPIC}"
             data = changes.encode(change, f"{self._prefix}/{change.node}")
-            self._writer.write(name, changes.TYPE, change.stamp, data)
+            self.write(name, changes.TYPE, change.stamp, data)
         for each in LOOP_TOPICS:
             data_ = cycle.messages.get(each.name)
             if each is topic:
                 data_ = None if answer is None else self._codecs[topic.name].encode(answer)
             if data_ is not None:
                 name = f"{self._prefix}/{each.name}"
-                self._writer.add_topic(name, each.type, DEPTH)
-                self._writer.write(name, each.type, cycle.stamp, data_)
-
-    def __enter__(self) -> Self:
-        return self
-
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        trace: TracebackType | None,
-    ) -> None:
-        if error is not None:
-            self._writer.__exit__(kind, error, trace)
-        else:
-            self._writer.close(self._reason)
+                self.add_topic(name, each.type, DEPTH)
+                self.write(name, each.type, cycle.stamp, data_)
