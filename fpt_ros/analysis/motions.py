@@ -65,9 +65,10 @@ class Motions:
     def __init__(self, about: Run, names: Sequence[str] | None = None) -> None:
         self._about, self._names = about, names
         self._origin: int | None = None
-        self._late = int(
-            signals.parameter_number(about, "plant_simulator", "measurement_delay") or 0
-        )
+        late = signals.parameter_number(about, "plant_simulator", "measurement_delay") or 0
+        # a nominal motion that is as late is of the same cycle as the measurement already
+        shown_late = signals.parameter_number(about, "trajectory_generator", "nominal_delay") or 0
+        self._late = max(0, int(late - shown_late))
         self._sharing = bool(signals.parameter(about, "trajectory_generator", "time_sharing"))
         self._stage: TrajectoryGenerator | None = None
         self._noise = _Noise.of(about)
