@@ -7,7 +7,11 @@ experiments: rms over all joints [rad] from 2.5 s on, to two digits.
 
 import numpy as np
 import pytest
-from engine_runs import topics_of, tracking_errors
+from engine_runs import run, topics_of, tracking_errors
+
+from fpt_ros.analysis.metrics import summary
+from fpt_ros.experiments.experiment import load
+from fpt_ros.runs.run import Run, describe
 
 pytest.importorskip("mujoco")
 
@@ -50,6 +54,16 @@ def rms(arm, variant, settings=()):
 @pytest.mark.parametrize(("arm", "variant", "settings", "figure"), FIGURES)
 def test_settled_error(arm, variant, settings, figure):
     assert rms(arm, variant, settings) == pytest.approx(figure, rel=0.15)
+
+
+@pytest.mark.parametrize(("nominal_delay", "figure"), [(2, 2.3e-4), (0, 1.3e-3)])
+def test_sensors_that_are_two_cycles_late(nominal_delay, figure):
+    """As the summary tells it; with a nominal motion that is not late, delay times speed."""
+    settings = [f"trajectory_generator.nominal_delay={nominal_delay}"]
+    loaded = load("panda", "delayed", settings)
+    told = summary(Run(describe(loaded, "in_process", ""), loaded.nodes, run(loaded)))["tracking"]
+    found = np.sqrt(np.mean([each["rms_settled"] ** 2 for each in told.values()]))
+    assert found == pytest.approx(figure, rel=0.15)
 
 
 def test_how_the_transformation_compares():
