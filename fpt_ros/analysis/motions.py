@@ -69,11 +69,13 @@ class Motions:
         # a nominal motion that is as late is of the same cycle as the measurement already
         shown_late = signals.parameter_number(about, "trajectory_generator", "nominal_delay") or 0
         self._late = max(0, int(late - shown_late))
+        self._both_late = int(min(late, shown_late))
         self._sharing = bool(signals.parameter(about, "trajectory_generator", "time_sharing"))
         self._stage: TrajectoryGenerator | None = None
         self._noise = _Noise.of(about)
         self._truth = Truth.of(about)
         self._lines: dict[str, _DelayLine] = {}
+        self._true_lines: dict[str, tuple[_Behind, _Behind]] = {}
 
     def take(self, chunk: Chunk) -> dict[str, Motion]:
         """The next part of the motions, by coordinate: those that are met in the chunk."""
@@ -92,7 +94,12 @@ class Motions:
                 found[name] = NONE
                 continue
             if name in true:
-                position, velocity = (each[j] for each in true[name])
+                lines = self._true_lines.setdefault(
+                    name, (_Behind(self._both_late), _Behind(self._both_late))
+                )
+                position, velocity = (
+                    line.take(each)[j] for line, each in zip(lines, true[name], strict=True)
+                )
             else:
                 position, velocity = self._measured(chunk, name, stamps, j)
             if name in desired.names:
@@ -142,6 +149,20 @@ class Motions:
         at = stage.controlled.index(coordinate)
         motions = sample(stage, time.tolist())
         return np.array([m[0][at] for m in motions]), np.array([m[1][at] for m in motions])
+
+
+class _Behind:
+    """Numbers so many cycles behind, as a nominal motion is that is late; the first one waits."""
+
+    def __init__(self, late: int) -> None:
+        self._late = late
+        self._held: Array | None = None
+
+    def take(self, new: Array) -> Array:
+        held = np.repeat(new[:1], self._late) if self._held is None else self._held
+        whole = np.concatenate((held, new))
+        self._held = whole[len(new) :]
+        return whole[: len(new)]
 
 
 class _DelayLine:

@@ -56,10 +56,18 @@ def test_settled_error(arm, variant, settings, figure):
     assert rms(arm, variant, settings) == pytest.approx(figure, rel=0.15)
 
 
+SPOILT = (
+    "plant_simulator.sensors.kinds=[quantised]",
+    "plant_simulator.sensors.quantised.step=1e-9",
+)
+"""By next to nothing, so that errors are those of the plant's own motion."""
+
+
+@pytest.mark.parametrize("spoilt", [(), SPOILT])
 @pytest.mark.parametrize(("nominal_delay", "figure"), [(2, 2.3e-4), (0, 1.3e-3)])
-def test_sensors_that_are_two_cycles_late(nominal_delay, figure):
+def test_sensors_that_are_two_cycles_late(nominal_delay, figure, spoilt):
     """As the summary tells it; with a nominal motion that is not late, delay times speed."""
-    settings = [f"trajectory_generator.nominal_delay={nominal_delay}"]
+    settings = [f"trajectory_generator.nominal_delay={nominal_delay}", *spoilt]
     loaded = load("panda", "delayed", settings)
     told = summary(Run(describe(loaded, "in_process", ""), loaded.nodes, run(loaded)))["tracking"]
     found = np.sqrt(np.mean([each["rms_settled"] ** 2 for each in told.values()]))
