@@ -57,8 +57,6 @@ class LoopNode(Node):
         finished: set when the node's work is done; the process then ends with status 0.
         deadline: monotonic time [s] at which :meth:`on_deadline` is due, or None.
         newest_counts: all messages that have come are taken, and then :meth:`act` is called.
-        takes_in_turn: of what has come, one message of each topic after the other is taken, so that
-            its topics are never more than a cycle apart.
         level: of what it tells on /diagnostics.
         ignored: number of messages that were not used.
     """
@@ -67,7 +65,7 @@ class LoopNode(Node):
         super().__init__(name)
         self.loop_subscriptions: list[Subscription] = []
         self.loop_group = LoopGroup()
-        self.finished = self.newest_counts = self.takes_in_turn = False
+        self.finished = self.newest_counts = False
         self.deadline: float | None = None
         self.cycles_done = 0
         self.ignored = 0

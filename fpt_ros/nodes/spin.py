@@ -39,7 +39,6 @@ class _LoopWaitSet:
             for sub in node.loop_subscriptions
         ]
         self._polls = len(nodes) > 1
-        self._in_turn = all(node.takes_in_turn for node in nodes)
         self.patience = 0.0 if self._polls else GRACE
         self._filled = False
         self._set = rclpy_implementation.WaitSet(len(self._entries), 0, 0, 0, 0, 0, context.handle)
@@ -62,9 +61,6 @@ class _LoopWaitSet:
         wait_set.wait(max(0, int(timeout * 1e9)))
         ready = wait_set.get_ready_entities("subscription")
         self._filled = len(ready) == len(self._entries)  # the others are taken out by the wait
-        if self._in_turn:
-            self._take_in_turn()
-            return bool(ready) != self._polls
         for pointer, _, take, callback in self._entries:
             if pointer in ready:
                 for _ in range(HEARD):
@@ -73,18 +69,6 @@ class _LoopWaitSet:
                         break
                     callback(*taken)
         return bool(ready) != self._polls
-
-    def _take_in_turn(self) -> None:
-        """One message of each topic after the other, in the order of the cycle."""
-        for _ in range(HEARD):
-            came = False
-            for _, _, take, callback in self._entries:
-                taken = take()
-                if taken is not None:
-                    callback(*taken)
-                    came = True
-            if not came:
-                return
 
     def _poll(self) -> bool:
         """Hand over what is there already."""
