@@ -107,14 +107,19 @@ def dump(
 
     Example: fpt params dump --out tuned.yaml
     """
+    import sys
     import tempfile
 
     from fpt_ros.analysis.whole_files import write_whole
+    from fpt_ros.cycle.stages import STAGES
     from fpt_ros.experiments.parameter_file import write
     from fpt_ros.nodes.asking import graph
 
     with graph(namespace) as asked:
         values = {node: asked.values(node) for node in nodes or asked.nodes()}
+    missing = [] if nodes else [node for node in STAGES if node not in values]
+    if missing:
+        print(f"fpt: not in the graph, so left out: {', '.join(missing)}", file=sys.stderr)
     with tempfile.TemporaryDirectory() as folder:
         write(Path(folder) / "dump.yaml", values)
         text = (Path(folder) / "dump.yaml").read_bytes()
@@ -127,15 +132,19 @@ def dump(
 @app.command()
 def load(
     file: Annotated[Path, typer.Argument(metavar="FILE", help="A ROS parameter file.")],
+    nodes: Annotated[
+        list[str] | None, typer.Argument(metavar="[NODE]...", help="By default all of the file.")
+    ] = None,
     namespace: Namespace = "",
 ) -> None:
     """Take the live parameters of a file, those of each node at one cycle boundary.
 
-    What is the same already is left alone; a difference in what cannot change in flight is refused
-    before anything is changed.
+    What is the same already is left alone. A difference in what cannot change in flight, and a
+    node that is not there, are refused before anything is changed.
 
-    Example: fpt params load tuned.yaml
+    Example: fpt params load tuned.yaml fpt_deformer
     """
+    from fpt_ros.cycle.stages import STAGES
     from fpt_ros.errors import BadInput
     from fpt_ros.experiments.parameter_file import read
     from fpt_ros.nodes.asking import graph
@@ -144,9 +153,14 @@ def load(
     with graph(namespace) as asked:
         changes: dict[str, dict[str, Value]] = {}
         here = asked.nodes()
-        for node in given.nodes:
+        for node in nodes or [name for name in given.nodes if name in STAGES]:
+            if node not in given.nodes:
+                raise BadInput(f"{file} has no node {node}: it has {', '.join(given.nodes)}")
             if node not in here:
-                continue
+                raise BadInput(
+                    f"{file}: the node {node} is not in the graph, which has {', '.join(here)}; "
+                    "name those to load"
+                )
             now = asked.values(node)
             wanted = {**{k: v for k, v in given.shared.items() if k in now}, **given.nodes[node]}
             differing = {k: v for k, v in wanted.items() if k not in now or now[k] != v}

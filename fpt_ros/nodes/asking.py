@@ -20,8 +20,10 @@ from rclpy.parameter import Parameter as RosParameter
 from std_srvs.srv import Trigger
 
 from fpt_ros.bags.changes import value_of
+from fpt_ros.cycle.plant_simulator import PlantSimulator
 from fpt_ros.cycle.stages import STAGES
 from fpt_ros.errors import BadInput, RunFailed
+from fpt_ros.messages.topics import JOINT_STATES
 from fpt_ros.nodes import middleware
 from fpt_ros.nodes.snapshot import KNOWN, OF_ROS
 from fpt_ros.nodes.stage_node import CHANGES
@@ -29,8 +31,11 @@ from fpt_ros.parameters import Value
 
 WHERE = "ROS_DOMAIN_ID (--namespace?)"
 
-FURTHER = 2.0
-"""Seconds after the first node in which the others are found."""
+FURTHER = 10.0
+"""Seconds after the first node in which the others are found, where some are missing."""
+
+NAME_TO_COME = "_NODE_NAME_UNKNOWN_"
+"""What DDS calls a node whose endpoints are found before its name is."""
 
 PATIENCE = 30.0
 """Seconds that a node may take to be found, and to answer."""
@@ -82,8 +87,8 @@ class Graph:
         deadline, found = monotonic() + PATIENCE, 0.0
         while monotonic() < deadline and not (found and monotonic() > found + FURTHER):
             here = self._here()
-            if len(here) == len(STAGES):
-                break
+            if self._is_whole(here):
+                return here
             found = found or (monotonic() if here else 0.0)
             self._executor.spin_once(timeout_sec=0.05)
         here = self._here()
@@ -95,6 +100,13 @@ class Graph:
         services = {name for name, _ in self._node.get_service_names_and_types()}
         resolve = self._node.resolve_service_name
         return [node for node in STAGES if resolve(f"{node}/set_parameters") in services]
+
+    def _is_whole(self, here: Sequence[str]) -> bool:
+        """Whether all are there: nodes are found one by one, on a busy machine seconds apart."""
+        missing = set(STAGES) - set(here)
+        plants = self._node.get_publishers_info_by_topic(JOINT_STATES.name)
+        theirs = {each.node_name for each in plants} - {PlantSimulator.name, NAME_TO_COME}
+        return not missing or (missing == {PlantSimulator.name} and bool(theirs))
 
     def others(self, seconds: float) -> list[str]:
         """Full names of all nodes that are found within a time."""

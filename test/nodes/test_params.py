@@ -50,6 +50,7 @@ def test_parameters_of_a_running_graph(tmp_path):
             (("set", "fpt_deformer", "B=1"), "no parameter 'B'"),
             (("set", "fpt_deformer", "A"), "PARAM=VALUE"),
             (("get", "fpt_deformer", "nonsense"), "no parameter 'nonsense'"),
+            (("load", before, "fpt_deforme"), "has no node fpt_deforme: it has plant_simulator"),
         ):
             done = ask(*words)
             assert done.returncode == 2
