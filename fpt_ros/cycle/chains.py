@@ -1,4 +1,4 @@
-"""Disturbances of sensors and of actuators one after the other, each as one law."""
+"""Disturbances of sensors and of actuators one after the other, all of them as one law."""
 
 from collections.abc import Callable
 from functools import cache
@@ -12,6 +12,12 @@ Sense = Callable[[Matrix, Matrix, float, Indices, MutableVector, MutableVector],
 
 Drive = Callable[[Matrix, Matrix, float, Indices, MutableVector], None]
 """(constants, states, dt, where, effort)"""
+
+
+Spoilt = Callable[[int, Matrix, Matrix, float, Indices, MutableVector, MutableVector], None]
+"""(side, constants, states, dt, where, q, v): a sense, or a drive of the efforts ``q``"""
+
+AT_SENSORS, AT_ACTUATORS = 0, 1
 
 
 def as_measured(
@@ -66,3 +72,24 @@ def driving(laws: tuple[Actuate, ...]) -> Drive:
         last(constants[at], states[at], dt, where, effort)
 
     return drive_all
+
+
+@cache
+def spoiling(sense: Sense, drive: Drive) -> Spoilt:
+    """Both as one law: what a loop calls through pointers should be few."""
+
+    def spoil(
+        side: int,
+        constants: Matrix,
+        states: Matrix,
+        dt: float,
+        where: Indices,
+        q: MutableVector,
+        v: MutableVector,
+    ) -> None:
+        if side == AT_SENSORS:
+            sense(constants, states, dt, where, q, v)
+        else:
+            drive(constants, states, dt, where, q)
+
+    return spoil

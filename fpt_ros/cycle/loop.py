@@ -7,7 +7,7 @@ import math
 from typing import NamedTuple
 
 from fpt_ros.compensators import Compensate
-from fpt_ros.cycle.chains import Sense
+from fpt_ros.cycle.chains import Spoilt
 from fpt_ros.cycle.commanding import command_cycle
 from fpt_ros.cycle.deformation import (
     DeformerConstants,
@@ -27,8 +27,8 @@ from fpt_ros.cycle.motion import (
     PlantConstants,
     PlantMemory,
     PlantWork,
-    Step,
     measure,
+    move,
 )
 from fpt_ros.cycle.rows import (
     CommandRow,
@@ -56,8 +56,10 @@ from fpt_ros.cycle.tuning import (
     tuning_cycle,
 )
 from fpt_ros.denoising.streaming import Update as Filter
+from fpt_ros.disturbances import Force
+from fpt_ros.integrators import Integrate
 from fpt_ros.laws import Matrix
-from fpt_ros.plants import Effort, Regressor
+from fpt_ros.plants import Advance, Effort, Regressor
 from fpt_ros.relaxations import Prescribe
 from fpt_ros.trajectories import Nominal
 from fpt_ros.transformations import Deform
@@ -98,8 +100,13 @@ class CycleWork(NamedTuple):
 
 
 class CycleRows(NamedTuple):
-    """The messages of some cycles, and the noise of each (2 n numbers, or none)."""
+    """The messages of the cycles from ``first`` up to ``last``, not included.
 
+    ``first`` is in row 0. ``noise`` of each: 2 n numbers, or none.
+    """
+
+    first: int
+    last: int
     joint_states: JointStatesRows
     state_estimate: StateEstimateRows
     desired: DesiredRows
@@ -117,24 +124,24 @@ def run(
     deform: Deform,
     effort: Effort,
     compensate: Compensate,
-    sense: Sense,
-    step: Step,
-    first: int,
-    last: int,
+    spoil: Spoilt,
+    force: Force,
+    integrate: Integrate,
+    advance: Advance,
     constants: CycleConstants,
     memory: CycleMemory,
     work: CycleWork,
     rows: CycleRows,
 ) -> int:
-    """Run the cycles from ``first`` up to ``last``, not included; the first one is in row 0.
+    """Run the cycles of ``rows``.
 
     Returns:
-        ``last``, or the cycle in which something was not finite or beyond its limit; the
+        ``rows.last``, or the cycle in which something was not finite or beyond its limit; the
         memories are then not those of its start.
     """
     cycle_time, where, before = constants.cycle_time, constants.deformer.where, memory.command
-    for k in range(first, last):
-        i = k - first
+    for k in range(rows.first, rows.last):
+        i = k - rows.first
         t = k * cycle_time / 1000000000
         measured = JointStatesRow(
             rows.joint_states.position[i],
@@ -154,7 +161,7 @@ def run(
             rows.desired.combined_error[i],
         )
         command = CommandRow(rows.command.accelerations[i], rows.command.effort[i])
-        measure(sense, constants.plant, memory.plant, k, rows.noise[i], measured)
+        measure(spoil, constants.plant, memory.plant, k, rows.noise[i], measured)
         if k == 0:
             show_first(measured, estimate)
         else:
@@ -215,9 +222,20 @@ def run(
             asked = not math.isnan(desired.accelerations[j])
             if asked and not math.isfinite(command.accelerations[where[j]]):
                 return k
-        if step(constants.plant, memory.plant, work.plant, t, command.effort) != NONE:
+        fault = move(
+            spoil,
+            force,
+            integrate,
+            advance,
+            constants.plant,
+            memory.plant,
+            work.plant,
+            t,
+            command.effort,
+        )
+        if fault != NONE:
             return k
         for j in range(len(before.effort)):
             before.accelerations[j] = command.accelerations[j]
             before.effort[j] = command.effort[j]
-    return last
+    return rows.last

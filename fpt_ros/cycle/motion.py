@@ -1,12 +1,10 @@
 """What stages 1 and 6 compute: what the sensors show, and the motion that an effort causes."""
 
 import math
-from collections.abc import Callable
 from enum import IntEnum
-from functools import cache
 from typing import NamedTuple
 
-from fpt_ros.cycle.chains import Drive, Sense
+from fpt_ros.cycle.chains import AT_ACTUATORS, AT_SENSORS, Spoilt
 from fpt_ros.cycle.rows import JointStatesRow
 from fpt_ros.disturbances import Force
 from fpt_ros.integrators import Integrate
@@ -22,7 +20,8 @@ class PlantConstants(NamedTuple):
     ``sigma_q``, ``sigma_v`` of the noise; ``h``: length of one of the ``substeps`` [s]; ``order``
     of the response; ``velocity_measured``; ``late``: cycles by which the sensors are; constants of
     the ``integrator``; of the disturbances of ``sensors`` and ``actuators``, a row each, and the
-    coordinates that have them; ``dt``: length of a cycle [s].
+    coordinates that have them; ``dt``: length of a cycle [s]; ``by_itself``: whether the plant
+    integrates itself.
     """
 
     coefficients: Vector
@@ -43,6 +42,7 @@ class PlantConstants(NamedTuple):
     sensors_at: Indices
     actuators: Matrix
     actuators_at: Indices
+    by_itself: int
 
 
 class PlantMemory(NamedTuple):
@@ -65,7 +65,8 @@ class PlantMemory(NamedTuple):
 class PlantWork(NamedTuple):
     """n each; ``place``: the coordinate that went wrong, one number; the ``integrator``'s.
 
-    ``driven``: the efforts that come out of the actuators; ``acting``: with the external force.
+    ``driven``: the efforts that come out of the actuators; ``acting``: with the external force, or
+    as a plant that integrates itself reports them.
     """
 
     position: MutableVector
@@ -89,16 +90,10 @@ class Fault(IntEnum):
 
 NONE, EFFORT, RESPONSE, POSITION = map(int, Fault)
 
-Step = Callable[[PlantConstants, PlantMemory, PlantWork, float, Vector], int]
-"""(constants, memory, work, t, effort) -> fault: one cycle of the plant with the effort held.
-
-The memory stays as it is where something is wrong, but for the disturbance's and the plant's own.
-"""
-
 
 @helper
 def measure(
-    sense: Sense,
+    spoil: Spoilt,
     constants: PlantConstants,
     memory: PlantMemory,
     cycle: int,
@@ -122,27 +117,9 @@ def measure(
             v[i] += constants.sigma_v * noise[n + i]
         if not constants.velocity_measured:
             v[i] = math.nan
-    if cycle > 0:
-        sense(constants.sensors, memory.sensors, constants.dt, constants.sensors_at, q, v)
-
-
-@helper
-def take_effort(
-    drive: Drive,
-    constants: PlantConstants,
-    memory: PlantMemory,
-    work: PlantWork,
-    effort: Vector,
-) -> int:
-    """The motion of the cycle's start and the efforts that come out of the actuators."""
-    for i in range(len(effort)):
-        work.position[i], work.velocity[i] = memory.position[i], memory.velocity[i]
-        work.driven[i] = effort[i]
-        if not math.isfinite(effort[i]):
-            work.place[0] = i
-            return EFFORT
-    drive(constants.actuators, memory.actuators, constants.dt, constants.actuators_at, work.driven)
-    return NONE
+    if cycle > 0 and len(constants.sensors) > 0:
+        where, dt = constants.sensors_at, constants.dt
+        spoil(AT_SENSORS, constants.sensors, memory.sensors, dt, where, q, v)
 
 
 @helper
@@ -158,27 +135,53 @@ def fault_of(constants: PlantConstants, work: PlantWork) -> int:
     return NONE
 
 
-@cache
-def integrated(integrate: Integrate, force: Force, drive: Drive) -> Step:
-    """The step of a plant that gives its response: ``substeps`` of h [s].
+@helper
+def move(
+    spoil: Spoilt,
+    force: Force,
+    integrate: Integrate,
+    advance: Advance,
+    constants: PlantConstants,
+    memory: PlantMemory,
+    work: PlantWork,
+    t: float,
+    effort: Vector,
+) -> int:
+    """One cycle of the plant from t [s], the effort held: ``substeps`` of h [s].
 
-    The external force is that of a substep's start, and is held over it as the effort is.
+    A plant that gives its response is integrated; the external force is that of a substep's
+    start, and is held over it as the effort is. Where a plant integrates itself, its acceleration
+    is the difference of its velocity.
+
+    Returns:
+        what went wrong (:class:`Fault`). The memory stays as it is then, but for the disturbance's
+        and the plant's own.
     """
-
-    def step(
-        constants: PlantConstants, memory: PlantMemory, work: PlantWork, t: float, effort: Vector
-    ) -> int:
-        q, v, driven, acting = work.position, work.velocity, work.driven, work.acting
-        h, hit = constants.h, constants.disturbed
-        n = len(q)
-        if take_effort(drive, constants, memory, work, effort) != NONE:
+    q, v, a, driven, acting = work.position, work.velocity, work.response, work.driven, work.acting
+    h, hit, n = constants.h, constants.disturbed, len(effort)
+    for i in range(n):
+        q[i], v[i], driven[i] = memory.position[i], memory.velocity[i], effort[i]
+        work.external[i] = 0.0
+        if not math.isfinite(effort[i]):
+            work.place[0] = i
             return EFFORT
-        for substep in range(constants.substeps):
+    if len(constants.actuators) > 0:
+        where, dt = constants.actuators_at, constants.dt
+        spoil(AT_ACTUATORS, constants.actuators, memory.actuators, dt, where, driven, driven)
+    for substep in range(constants.substeps):
+        at = t + substep * h
+        push = force(constants.disturbance, memory.disturbance, at, h, q[hit], v[hit])
+        if constants.by_itself:
+            for i in range(n):
+                a[i] = v[i]
+            work.external[hit] = push
+            advance(constants.coefficients, memory.own, at, h, driven, work.external, q, v, acting)
+            for i in range(n):
+                a[i] = (v[i] - a[i]) / h
+        else:
             for i in range(n):
                 acting[i] = driven[i]
-            acting[hit] += force(
-                constants.disturbance, memory.disturbance, t + substep * h, h, q[hit], v[hit]
-            )
+            acting[hit] += push
             integrate(
                 constants.integrator,
                 constants.order,
@@ -187,46 +190,41 @@ def integrated(integrate: Integrate, force: Force, drive: Drive) -> Step:
                 acting,
                 q,
                 v,
-                work.response,
+                a,
                 work.integrator,
             )
-            fault = fault_of(constants, work)
-            if fault != NONE:
-                return fault
-        for i in range(n):
-            memory.position[i], memory.velocity[i], memory.effort[i] = q[i], v[i], driven[i]
-        return NONE
+        fault = fault_of(constants, work)
+        if fault != NONE:
+            return fault
+    for i in range(n):
+        memory.position[i], memory.velocity[i] = q[i], v[i]
+        memory.effort[i] = acting[i] if constants.by_itself else driven[i]
+    return NONE
 
-    return step
+
+def not_integrated(
+    constants: Vector,
+    order: int,
+    h: float,
+    coefficients: Vector,
+    effort: Vector,
+    q: MutableVector,
+    v: MutableVector,
+    a: MutableVector,
+    work: MutableVector,
+) -> None:
+    """In the place of an integrator, for a plant that integrates itself."""
 
 
-@cache
-def by_itself(advance: Advance, force: Force, drive: Drive) -> Step:
-    """The step of a plant that integrates itself; the acceleration is the velocity's difference."""
-
-    def step(
-        constants: PlantConstants, memory: PlantMemory, work: PlantWork, t: float, effort: Vector
-    ) -> int:
-        q, v, a, acted = work.position, work.velocity, work.response, work.acting
-        external, h, hit = work.external, constants.h, constants.disturbed
-        n = len(q)
-        if take_effort(drive, constants, memory, work, effort) != NONE:
-            return EFFORT
-        for i in range(n):
-            external[i] = 0.0
-        for substep in range(constants.substeps):
-            for i in range(n):
-                a[i] = v[i]
-            at = t + substep * h
-            external[hit] = force(constants.disturbance, memory.disturbance, at, h, q[hit], v[hit])
-            advance(constants.coefficients, memory.own, at, h, work.driven, external, q, v, acted)
-            for i in range(n):
-                a[i] = (v[i] - a[i]) / h
-            fault = fault_of(constants, work)
-            if fault != NONE:
-                return fault
-        for i in range(n):
-            memory.position[i], memory.velocity[i], memory.effort[i] = q[i], v[i], acted[i]
-        return NONE
-
-    return step
+def not_advanced(
+    coefficients: Vector,
+    state: MutableVector,
+    t: float,
+    dt: float,
+    effort: Vector,
+    external: Vector,
+    q: MutableVector,
+    v: MutableVector,
+    acted: MutableVector,
+) -> None:
+    """In the place of ``Plant.advance``, for a plant that is integrated."""

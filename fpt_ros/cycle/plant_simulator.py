@@ -8,10 +8,10 @@ from fpt_ros.cycle.motion import (
     PlantConstants,
     PlantMemory,
     PlantWork,
-    Step,
-    by_itself,
-    integrated,
     measure,
+    move,
+    not_advanced,
+    not_integrated,
 )
 from fpt_ros.cycle.noise import Noise
 from fpt_ros.cycle.records import Layout
@@ -20,7 +20,7 @@ from fpt_ros.cycle.stage import REALTIME, Input, Stage
 from fpt_ros.cycle.suffered import SUFFERED, Suffered
 from fpt_ros.disturbances import DISTURBANCES
 from fpt_ros.errors import BadInput, Diverged
-from fpt_ros.integrators import INTEGRATORS
+from fpt_ros.integrators import INTEGRATORS, Integrate
 from fpt_ros.laws import Vector
 from fpt_ros.messages.frames import SECOND, Command, JointStates, Names
 from fpt_ros.messages.topics import COMMAND, JOINT_STATES
@@ -34,7 +34,7 @@ from fpt_ros.parameters import (
     prefixed,
     word,
 )
-from fpt_ros.plants import PLANTS, made
+from fpt_ros.plants import PLANTS, Advance, made
 
 EULER = "explicit_euler"
 
@@ -131,7 +131,7 @@ class PlantSimulator(Stage):
         late = integer(values, "measurement_delay")
         self.integrator = INTEGRATORS[word(values, INTEGRATOR.name)]
         self.suffered = suffered = Suffered(values, plant.coordinates, seed)
-        self.sense = suffered.sense
+        self.spoil = suffered.spoil
         self.constants = PlantConstants(
             coefficients=self.coefficients,
             disturbance=list(self.disturbance.prepare(values, seed, self.cycles)),
@@ -151,11 +151,12 @@ class PlantSimulator(Stage):
             sensors_at=suffered.sensors_at,
             actuators=suffered.actuator_constants,
             actuators_at=suffered.actuators_at,
+            by_itself=int(plant.advance is not None),
         )
         if plant.set_step is not None:
             plant.set_step(self.constants.h)
         self.timeout = round(number(values, "command_timeout") * SECOND)
-        self.law = self._law(suffered)
+        self.laws = (suffered.spoil, self.disturbance.force, *self._laws())
         self.noise = Noise(seed, 2 * n)
         self._commanded = Entrance(f"{self.name}, command", plant.coordinates)
         self.entrances = {COMMAND.name: self._commanded}
@@ -191,23 +192,19 @@ class PlantSimulator(Stage):
         if self.plant.start is not None:
             self.plant.start(self.coefficients, memory.own, start[:n], start[n:])
 
-    def _law(self, suffered: Suffered) -> Step:
-        """The plant's motion over one cycle, as a law."""
-        name, force, kind = (
-            word(self.values, "plant"),
-            self.disturbance.force,
-            word(self.values, INTEGRATOR.name),
-        )
+    def _laws(self) -> tuple[Integrate, Advance]:
+        """How the plant is integrated, and how it integrates itself; one of them does nothing."""
+        name, kind = word(self.values, "plant"), word(self.values, INTEGRATOR.name)
         if self.plant.advance is not None:
             if kind != EULER:
                 raise BadInput(
                     f"{self.name}.{INTEGRATOR.name}: {kind} given, but the plant {name} integrates "
                     "itself: leave it out"
                 )
-            return by_itself(self.plant.advance, force, suffered.drive)
+            return not_integrated, self.plant.advance
         if self.plant.response is None:
             raise BadInput(f"{self.name}.plant: {name} has neither a response nor advance")
-        return integrated(self.integrator.over(self.plant.response), force, suffered.drive)
+        return self.integrator.over(self.plant.response), not_advanced
 
     @property
     def coordinates(self) -> Names:
@@ -239,7 +236,7 @@ class PlantSimulator(Stage):
         n = len(self.coordinates)
         out = JointStatesRow([0.0] * n, [0.0] * n, [0.0] * n)
         noise: Vector = self.noise.of(cycle) if self.noisy else ()
-        measure(self.sense, self.constants, self.memory, cycle, noise, out)
+        measure(self.spoil, self.constants, self.memory, cycle, noise, out)
         return JointStates(stamp, self.coordinates, *out)
 
     def safe_command(self, stamp: int) -> Command:
@@ -256,7 +253,7 @@ class PlantSimulator(Stage):
         """
         t, work, effort = stamp / SECOND, self.work, self._commanded.take(command).effort
         try:
-            fault = self.law(self.constants, self.memory, work, t, effort)
+            fault = move(*self.laws, self.constants, self.memory, work, t, effort)
         except (ArithmeticError, ValueError) as error:
             remedy, cycle = self._trouble(work.position) or str(error), stamp // self.cycle_time
             name = self.coordinates[0]

@@ -3,7 +3,7 @@
 from collections.abc import Mapping
 from typing import Any
 
-from fpt_ros.cycle.chains import driving, sensing
+from fpt_ros.cycle.chains import driving, sensing, spoiling
 from fpt_ros.cycle.motion import PlantMemory
 from fpt_ros.cycle.records import ByRow
 from fpt_ros.cycle.stage import indices
@@ -51,7 +51,7 @@ class Suffered:
 
     Attributes:
         sensors, actuators: by name, in their order; ``laws``: of all of them.
-        sense, drive: all of them as one law each.
+        spoil: all of them as one law.
         sensor_constants, actuator_constants: a row each.
         sensors_at, actuators_at: places of the coordinates that have them.
         sensor_states, actuator_states: rows and columns of what they remember.
@@ -70,7 +70,7 @@ class Suffered:
         spoil = tuple(each.spoil for each in self.sensors.values())
         actuate = tuple(each.actuate for each in self.actuators.values())
         self.laws = (*spoil, *actuate)
-        self.sense, self.drive = sensing(spoil), driving(actuate)
+        self.spoil = spoiling(sensing(spoil), driving(actuate))
         self.sensor_constants = _constants("sensors", self.sensors, values, seed)
         self.actuator_constants = _constants("actuators", self.actuators, values, seed)
         self.sensors_at = self._places("sensors", values)

@@ -62,7 +62,7 @@ class Buffers:
         }
         self.noise: Array = np.empty((length, 2 * len(plant.coordinates) if plant.noisy else 0))
         records: list[Any] = [make(*self._arrays[topic]) for topic, make in RECORDS.items()]
-        self.rows = CycleRows(*records, self.noise)  # type: ignore[call-arg]  # as many as it has
+        self.rows = CycleRows(0, 0, *records, self.noise)  # type: ignore[call-arg]  # as many as it has
 
     def series(self, first: int, end: int) -> dict[str, Series]:
         """The messages of some cycles, the first in row 0; views."""

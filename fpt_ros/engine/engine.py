@@ -94,8 +94,7 @@ class Engine:
             self._loop.deformer.transformation.deform,
             self._loop.deformer.model.effort,
             self._loop.deformer.compensator.compensate,
-            self._loop.plant.sense,
-            self._loop.plant.law,
+            *self._loop.plant.laws,
         )
         if not compile_laws:
             return in_python(laws)
@@ -192,11 +191,11 @@ class Engine:
         return [*self._states, *self._command]
 
     def _call(self, first: int, end: int) -> int:
-        rows = self._buffers.rows
+        rows = self._buffers.rows._replace(first=first, last=end)
         if self._loop.plant.noisy:
             self._loop.plant.noise.rows(first, self._buffers.noise[: end - first])
         with np.errstate(all="ignore"):
-            return self._run(first, end, self._constants, self._memory, self._work, rows)
+            return self._run(self._constants, self._memory, self._work, rows)
 
     def _last_command(self, cycle: int) -> Command | None:
         if cycle == 0:

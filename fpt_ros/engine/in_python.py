@@ -16,17 +16,12 @@ def in_python(laws: tuple[Callable[..., Any], ...]) -> Callable[..., int]:
     whole = partial(loop, *laws)
 
     def run(
-        first: int,
-        last: int,
-        constants: CycleConstants,
-        memory: CycleMemory,
-        work: CycleWork,
-        rows: CycleRows,
+        constants: CycleConstants, memory: CycleMemory, work: CycleWork, rows: CycleRows
     ) -> int:
-        for k in range(first, last):
-            row = _row(rows, k - first)
+        for k in range(rows.first, rows.last):
+            row = _row(rows, k)
             try:
-                reached = whole(k, k + 1, constants, memory, work, row)
+                reached = whole(constants, memory, work, row)
             except (ArithmeticError, ValueError):
                 return k
             except Exception as error:
@@ -37,14 +32,18 @@ def in_python(laws: tuple[Callable[..., Any], ...]) -> Callable[..., int]:
                 ) from error
             if reached == k:
                 return k
-        return last
+        return rows.last
 
     return run
 
 
-def _row(rows: CycleRows, i: int) -> CycleRows:
+def _row(rows: CycleRows, cycle: int) -> CycleRows:
     """The rows of one cycle."""
-    matrices: Any = rows
-    parts: Any = [type(each)(*[matrix[i : i + 1] for matrix in each]) for each in matrices[:-1]]
-    parts.append(matrices[-1][i : i + 1])
-    return CycleRows(*parts)
+    i = cycle - rows.first
+    parts: Any = {
+        name: type(each)(*[matrix[i : i + 1] for matrix in each])
+        for name, each in rows._asdict().items()
+        if isinstance(each, tuple)
+    }
+    noise: Any = rows.noise[i : i + 1]
+    return rows._replace(first=cycle, last=cycle + 1, noise=noise, **parts)
