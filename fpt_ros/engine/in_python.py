@@ -45,5 +45,5 @@ def _row(rows: CycleRows, cycle: int) -> CycleRows:
         for name, each in rows._asdict().items()
         if isinstance(each, tuple)
     }
-    noise: Any = rows.noise[i : i + 1]
-    return rows._replace(first=cycle, last=cycle + 1, noise=noise, **parts)
+    noise: Any = rows.noise
+    return rows._replace(first=cycle, last=cycle + 1, noise=noise[i : i + 1], **parts)
