@@ -2,9 +2,9 @@
 
 A law is compiled for the signature of its kind and called through a pointer, so that the loop
 itself is compiled once for all laws, and a user's own law costs one small compilation. For long
-runs the laws are built into a specialised loop, twice as fast: the code that is there is linked
-and optimised once more, which takes seconds, and gives the same bits. The machine code is kept in
-the user's cache; the folder's name tells the sources it was made of.
+and for many runs the laws are built into a specialised loop, twice as fast: the code that is there
+is linked and optimised once more, which takes seconds, and gives the same bits. The machine code
+is kept in the user's cache; the folder's name tells the sources it was made of.
 """
 
 import hashlib
@@ -197,6 +197,18 @@ def loop(function: Callable[..., Any], chosen: Laws) -> Callable[..., Any]:
 
 
 @cache
+def is_specialised(function: Callable[..., Any], chosen: Laws) -> bool:
+    """Whether the loop with these laws built in is on disk: then it is there at once."""
+    folder = Path(_numba().config.CACHE_DIR)
+    return any(folder.glob(f"**/*{_built_in(function, chosen)}-*.nbi"))
+
+
+def _built_in(function: Callable[..., Any], chosen: Laws) -> str:
+    """The name that tells a loop with its laws from all others."""
+    return f"built_in_{_digest((cache_directory().name, *map(_identity, (function, *chosen))))}"
+
+
+@cache
 def specialised_loop(function: Callable[..., Any], chosen: Laws) -> Callable[..., Any]:
     """The same as :func:`loop`, with the laws built in.
 
@@ -210,8 +222,7 @@ def specialised_loop(function: Callable[..., Any], chosen: Laws) -> Callable[...
     scope = {f"law{i}": each for i, each in enumerate(_compiled_laws(function, chosen))}
     scope |= {"loop": _loop(function), "__name__": __name__}
     exec(compile(text, __file__, "exec"), scope)
-    parts = cache_directory().name, *map(_identity, (function, *chosen))
-    scope["built_in"].__qualname__ = f"built_in_{_digest(parts)}"
+    scope["built_in"].__qualname__ = _built_in(function, chosen)
     signature = type_of(result)(*map(type_of, others.values()))
     with warnings.catch_warnings():
         warnings.filterwarnings("ignore", "First-class function type")

@@ -25,6 +25,9 @@ from fpt_ros.runs.run import Series
 LONG = 500_000
 """Cycles from which a specialised loop is worth the seconds that it takes, once."""
 
+MANY = 10_000_000
+"""The same for the cycles of many runs together: a sweep of an instant should stay one."""
+
 SLOWER = "about 100 times slower"
 """As measured with TORA."""
 
@@ -48,6 +51,7 @@ class Engine:
         compile_laws: bool = True,
         consumers: Sequence[Consumer] | None = None,
         changes: Changes = NO_CHANGES,
+        runs: int = 1,
     ) -> None:
         """Prepare fresh stages for a run.
 
@@ -57,6 +61,7 @@ class Engine:
             consumers: of the messages; by default all of them are kept for :meth:`topics`, which
                 takes memory for the whole run.
             changes: of parameters in flight.
+            runs: how many of this kind there are, all together.
         """
         self._loop, self._changes = loop, changes
         self.done = 0
@@ -73,7 +78,7 @@ class Engine:
         self._states = [_view(stage.state) for stage in loop.stages()]
         self._command: list[Array] = list(np.full((2, len(plant.coordinates)), np.nan))
         self._lay_out()
-        self._run: Callable[..., int] = self._prepare(compile_laws)
+        self._run: Callable[..., int] = self._prepare(compile_laws, runs)
 
     def _lay_out(self) -> None:
         """All that the loop works on, by the parameters that are in force."""
@@ -84,7 +89,7 @@ class Engine:
         self._buffers = Buffers(loop, min(CHUNK, self.cycles))
         self._spare = Buffers(loop, CHUNK) if self.cycles >= LONG else self._buffers
 
-    def _prepare(self, compile_laws: bool) -> Callable[..., int]:
+    def _prepare(self, compile_laws: bool, runs: int) -> Callable[..., int]:
         laws = (
             self._loop.denoiser.filter.update,
             self._loop.trajectory.trajectory.nominal,
@@ -98,9 +103,11 @@ class Engine:
         )
         if not compile_laws:
             return in_python(laws)
-        loop_with = compiled.specialised_loop if self.cycles >= LONG else compiled.loop
+        much = self.cycles >= LONG or runs * self.cycles >= MANY
         try:
-            return loop_with(cycle.run, laws)
+            if much or compiled.is_specialised(cycle.run, laws):
+                return compiled.specialised_loop(cycle.run, laws)
+            return compiled.loop(cycle.run, laws)
         except compiled.NotCompiled as error:
             notice(f"a law cannot be compiled, {error.why}; the run is in Python, {SLOWER}")
             return in_python(laws)

@@ -30,7 +30,7 @@ def run_one(experiments: Experiments, number: int) -> Row:
     outcome, at, result = COMPLETE, None, None
     reason = ""
     try:
-        result = simulate(*experiments.at(point))
+        result = simulate(*experiments.at(point), runs=job.space.size)
         reason = str(result["reason"])
         if reason:
             outcome, at = DIVERGED, cast("float | None", result["diverged_at"])
@@ -45,12 +45,15 @@ def run_one(experiments: Experiments, number: int) -> Row:
     return [number, *shown, outcome, at, reason, cycles, *metrics]
 
 
-def simulate(experiment: Experiment, loop: Loop) -> dict[str, object]:
-    """The summary of a run as ``fpt simulate`` gives it, and ``diverged_at`` [s]."""
+def simulate(experiment: Experiment, loop: Loop, runs: int = 1) -> dict[str, object]:
+    """The summary of a run as ``fpt simulate`` gives it, and ``diverged_at`` [s].
+
+    ``runs``: how many of its kind are made.
+    """
     metrics = Metrics(experiment.nodes)
     reason, at = "", None
     try:
-        Engine(loop, consumers=[metrics]).run()
+        Engine(loop, consumers=[metrics], runs=runs).run()
     except RunFailed as error:
         reason = str(error)
         at = error.time if isinstance(error, Diverged) else None

@@ -11,6 +11,7 @@ from whole_loops import CYCLES, assert_engine_equals_stages, assert_identical, f
 
 from fpt_ros.engine import compiled
 from fpt_ros.engine import engine as engine_module
+from fpt_ros.engine.engine import MANY, Engine
 from fpt_ros.experiments import experiment
 from fpt_ros.runs.chunks import frames
 
@@ -135,10 +136,27 @@ def test_the_engine_as_plain_python_gives_the_same_bits(name, variant):
 )
 def test_a_long_run_has_its_laws_built_in_and_gives_the_same_bits(monkeypatch, name, variant):
     loaded = load(name, variant)
-    through_pointers = finished(loaded.loop())[0].topics()
-    monkeypatch.setattr(engine_module, "LONG", CYCLES)
+    with monkeypatch.context() as never:
+        never.setattr(compiled, "is_specialised", lambda *_: False)
+        through_pointers = finished(loaded.loop())[0].topics()
     monkeypatch.setattr(compiled, "loop", None)
+    with monkeypatch.context() as once:
+        once.setattr(engine_module, "LONG", CYCLES)
+        assert_identical(finished(loaded.loop())[0].topics(), through_pointers)
+    # a short run, now that the code is there
+    compiled.is_specialised.cache_clear()
     assert_identical(finished(loaded.loop())[0].topics(), through_pointers)
+
+
+def test_many_short_runs_are_a_long_one(monkeypatch):
+    built_in = []
+    monkeypatch.setattr(compiled, "is_specialised", lambda *_: False)
+    monkeypatch.setattr(compiled, "specialised_loop", lambda *_: built_in.append(True))
+    loop = load("tora", "adaptive").loop()
+    Engine(loop, runs=MANY // loop.plant.cycles - 1)
+    assert not built_in
+    Engine(load("tora", "adaptive").loop(), runs=MANY // loop.plant.cycles + 1)
+    assert built_in
 
 
 Law = Callable[[float], float]
