@@ -38,7 +38,7 @@ def type_of(annotation: Any) -> Any:
     if get_origin(annotation) is get_origin(Callable[[], None]):
         return types.FunctionType(signature_of(annotation))
     if isinstance(annotation, type) and hasattr(annotation, "_fields"):
-        kinds = [type_of(kind) for kind in get_type_hints(annotation).values()]
+        kinds = [type_of(kind) for kind in _fields(annotation)]
         if len(set(kinds)) == 1 and kinds:  # as numba.typeof decides
             return types.NamedUniTuple(kinds[0], len(kinds), annotation)
         return types.NamedTuple(kinds, annotation)
@@ -75,8 +75,7 @@ def as_arrays(record: Any, kind: Any) -> Any:
         return rows if rows.ndim == 2 else np.empty((0, 0))
     if kind in (float, int):
         return kind(record)
-    hints = get_type_hints(kind).values()
-    return kind(*[as_arrays(each, hint) for each, hint in zip(record, hints, strict=True)])
+    return kind(*[as_arrays(each, hint) for each, hint in zip(record, _fields(kind), strict=True)])
 
 
 def empty(kind: Any) -> Any:
@@ -89,4 +88,10 @@ def empty(kind: Any) -> Any:
         return np.empty((0, 0))
     if kind in (float, int):
         return kind(0)
-    return kind(*map(empty, get_type_hints(kind).values()))
+    return kind(*map(empty, _fields(kind)))
+
+
+@cache
+def _fields(record: Any) -> tuple[Any, ...]:
+    """The annotations of a record's fields."""
+    return tuple(get_type_hints(record).values())
