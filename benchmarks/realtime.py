@@ -76,7 +76,7 @@ def listen() -> None:
 def run(seconds: float, composed: bool, bag: Path | None) -> Latencies:
     """One run of TORA on the wall clock, and what its plant said last."""
     from fpt_ros.experiments.experiment import load
-    from fpt_ros.nodes import graph
+    from fpt_ros.nodes import child, graph
 
     experiment = load("tora").with_values("plant_simulator", duration=seconds)
     pipe = subprocess.PIPE
@@ -84,7 +84,7 @@ def run(seconds: float, composed: bool, bag: Path | None) -> Latencies:
         [sys.executable, __file__, "listen"],
         stdin=pipe,
         stdout=pipe,
-        env=dict(graph.environment()),
+        env=dict(child.environment()),
         text=True,
     )
     assert listener.stdout is not None

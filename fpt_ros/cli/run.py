@@ -1,5 +1,6 @@
 """``fpt run``."""
 
+import sys
 import tempfile
 from pathlib import Path
 from time import perf_counter
@@ -47,6 +48,12 @@ Efforts = Annotated[
     str,
     typer.Option(metavar="TOPIC", help="--no-plant: where its effort controller listens."),
 ]
+Restarted = Annotated[
+    int,
+    typer.Option(
+        "--restarts", metavar="N", min=0, help="Start a killed node again, N times a minute."
+    ),
+]
 
 
 def run(
@@ -64,6 +71,7 @@ def run(
     no_plant: NoPlant = False,
     states: States = "joint_states",
     efforts: Efforts = "effort_command",
+    restarts: Restarted = 3,
     json: Json = False,
 ) -> None:
     """Run an experiment as a graph of ROS 2 nodes over DDS, a process each.
@@ -91,7 +99,9 @@ def run(
     warn_about_gain(experiment)
     with tempfile.TemporaryDirectory(prefix="fpt_ros-") as folder:
         bag = record or Path(folder) / "recording"
-        result, failure = run_recorded(experiment, bag, composed, realtime, namespace, robot)
+        result, failure = run_recorded(
+            experiment, bag, composed, realtime, namespace, robot, restarts
+        )
     if result is not None:
         print_result({**result, "bag": str(record) if record is not None else None}, json)
     elif json and failure is not None:
@@ -116,6 +126,7 @@ def run_recorded(
     realtime: bool = False,
     namespace: str = "",
     robot: "Robot | None" = None,
+    restarts: int = 3,
 ) -> tuple[dict[str, Any] | None, Exception | None]:
     """Run the graph and read its recording.
 
@@ -126,7 +137,9 @@ def run_recorded(
     from fpt_ros.cli.output import progress_bar
     from fpt_ros.errors import BadInput, FptError
     from fpt_ros.nodes import graph
+    from fpt_ros.nodes.restarts import Restarts
 
+    counted = Restarts(restarts)
     pace: list[tuple[float, int]] = []
     failure: FptError | None = None
     total = experiment.loop().plant.cycles
@@ -139,7 +152,17 @@ def run_recorded(
             show(done)
 
         try:
-            graph.run(experiment, bag, composed, realtime, namespace, progress, robot)
+            graph.run(
+                experiment,
+                bag,
+                composed,
+                realtime,
+                namespace,
+                progress,
+                robot,
+                counted,
+                tell=lambda line: print(f"fpt: {line}", file=sys.stderr),
+            )
         except FptError as error:
             failure = error
     wall = perf_counter() - started
@@ -150,7 +173,8 @@ def run_recorded(
     rate = None
     if len(pace) > 1 and pace[-1][0] > pace[0][0]:
         rate = (pace[-1][1] - pace[0][1]) / (pace[-1][0] - pace[0][0])
-    return {**result, "wall_time": wall, "cycles_per_second": rate, "bag": str(bag)}, failure
+    result = {**result, "wall_time": wall, "cycles_per_second": rate, "bag": str(bag)}
+    return {**result, "restarts": counted.total}, failure
 
 
 def _robot(

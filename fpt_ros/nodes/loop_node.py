@@ -13,7 +13,9 @@ from rclpy.subscription import Subscription
 
 from fpt_ros.messages.topics import Topic
 from fpt_ros.nodes.qos import loop_qos
+from fpt_ros.nodes.run_folder import introduce
 from fpt_ros.nodes.sender import UNKNOWN, Sender
+from fpt_ros.nodes.take import gid_of
 
 DIAGNOSTICS_PERIOD = 1.0
 """Seconds between two messages on /diagnostics."""
@@ -112,6 +114,7 @@ class LoopNode(Node):
     def advertise(self, topic: Topic) -> Callable[[bytes], None]:
         """Advertise a loop topic; what is returned publishes a serialised message."""
         publisher = self.create_publisher(message_class(topic.type), topic.name, loop_qos())
+        introduce(self.resolve_topic_name(topic.name), gid_of(publisher))
         # past what rclpy's Publisher.publish checks at every message
         return getattr(publisher.handle, "publish_raw", publisher.publish)
 

@@ -32,6 +32,8 @@ REMEMBERED = 1024
 AGAIN = 0.5
 """Seconds without a command after which, in lockstep, the measurement is published once more."""
 
+PAUSED = "paused"
+
 LAST_REPORT = Duration(seconds=2)
 """How long the last report waits for those who hear it, the recorder among them."""
 
@@ -50,7 +52,7 @@ class PlantNode(ParameterisedNode):
         self._recorded = -1
         self._stamp = -1
         self._command: Command | None = None
-        self._held_back = self._over = False
+        self._held_back = self._over = self._clock_runs = False
         self._sent_at: deque[float] = deque(maxlen=REMEMBERED)
         self._timed = -1
         self._sent_again = 0.0
@@ -58,16 +60,35 @@ class PlantNode(ParameterisedNode):
         self._misses = 0
         self._latencies: list[float] = []
         self._histogram = Histogram()
-        self._control = RunControl(self, self._step_cycles, self._go_on)
+        self._control = RunControl(self, self._step_cycles, self._end_pause)
         self._stands_still = False
         qos = heard_qos(self._realtime)
         self.subscribe_raw(COMMAND.name, COMMAND.type, qos, self._on_command)
         if self._awaits_recorder:
             self.subscribe_raw(RECORDED_UNTIL, TIME, qos, self._on_recorded)
+        if self._kept.cycles:
+            self._go_on()
+
+    @property
+    def stamp(self) -> int:
+        """Of the cycle under way [ns]."""
+        return self._stamp
+
+    def _goes_on_at(self) -> int:
+        """Of the cycle that is under way again: its changes take effect behind the measurement."""
+        return self._kept.cycles[-1].stamp if self._kept.cycles else 0
+
+    def _go_on(self) -> None:
+        """In the place of a plant that was killed: the cycle is under way again, as in a pause."""
+        self._cycle = self.cycles_done - 1
+        self._stamp = self._timed = self._kept.cycles[-1].stamp
+        self._origin = self._stamp - self._cycle * self.stage.cycle_time
+        self._sent_at.append(monotonic())
+        self._control.paused = self._kept.aside.get(PAUSED) is True
 
     def begin(self) -> None:
         """Publish cycle 0, where a recorder is awaited as soon as it says that it has begun."""
-        if not self._awaits_recorder:
+        if not (self._kept.cycles or self._awaits_recorder):
             self._start()  # it waits, latched, for whoever is not there yet
 
     def _start(self) -> None:
@@ -99,10 +120,14 @@ class PlantNode(ParameterisedNode):
         return True
 
     def _start_clock(self) -> None:
-        """Real time begins when cycle 0 has gone around, and is recorded: all are there then."""
-        if self._cycle or self.deadline is not None or self._command is None:
+        """Real time begins when cycle 0 has gone around, and is recorded: all are there then.
+
+        It goes on where the cycle that was under way has gone around.
+        """
+        if self._clock_runs or self._command is None:
             return
-        if self._recorded >= self._stamp or not self._awaits_recorder:
+        if self._recorded >= self._stamp or self._cycle or not self._awaits_recorder:
+            self._clock_runs = True
             self._next_tick = self.deadline = monotonic() + self.stage.dt
 
     def _time(self, stamp: int) -> None:
@@ -162,7 +187,7 @@ class PlantNode(ParameterisedNode):
         else:
             self._stands_still, self.deadline = True, None
 
-    def _go_on(self) -> None:
+    def _end_pause(self) -> None:
         """After a pause."""
         if not self._stands_still:
             return
@@ -201,6 +226,9 @@ class PlantNode(ParameterisedNode):
         """Progress; and a plant that comes second does not start."""
         super().housekeeping()
         report_progress(self._cycle, self._stands_still)
+        if self._kept.aside.get(PAUSED, False) != self._control.paused:
+            self._kept.aside[PAUSED] = self._control.paused
+            self._kept.save()
         still = self._held_back or self.finished or self._stands_still
         waits = bool(self._sent_at) and not (self._realtime or still)
         if waits and monotonic() - max(self._sent_at[-1], self._sent_again) > AGAIN:

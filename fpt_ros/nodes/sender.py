@@ -5,6 +5,7 @@ from collections.abc import Callable
 from rclpy.node import Node
 from rclpy.topic_endpoint_info import TopicEndpointInfo
 
+from fpt_ros.nodes.run_folder import own_publishers
 from fpt_ros.nodes.take import GID_SIZE
 
 UNKNOWN = b""
@@ -17,7 +18,8 @@ ABSENT = 3
 class Sender:
     """Whom a node listens to on one topic.
 
-    A publisher that has gone (a broadcaster that was restarted) may be followed by another.
+    A publisher that has gone (a broadcaster that was restarted) may be followed by another. Where
+    the run's own publishers are known (:mod:`fpt_ros.nodes.run_folder`) they alone are heard.
     """
 
     def __init__(self, node: Node, topic: str, tell: Callable[[str], None]) -> None:
@@ -29,7 +31,13 @@ class Sender:
 
     def is_heard(self, gid: bytes) -> bool:
         """Whether a message of this publisher counts."""
-        if gid == self.chosen or self.chosen == UNKNOWN or gid == UNKNOWN:
+        if gid in (self.chosen, UNKNOWN):
+            return True
+        own = own_publishers(self._resolved) if gid not in self._strangers else set()
+        if gid in own:  # one that was started in the place of another
+            self.chosen = gid
+            return True
+        if self.chosen == UNKNOWN and not own:
             return True
         if gid not in self._strangers:
             self._strangers.add(gid)

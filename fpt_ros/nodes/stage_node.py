@@ -14,8 +14,9 @@ from fpt_ros.errors import BadInput
 from fpt_ros.messages.cdr import Codec, MalformedMessage
 from fpt_ros.messages.frames import SECOND, Frame
 from fpt_ros.messages.topics import JOINT_STATES, Topic
+from fpt_ros.nodes.kept import Kept, KeptCycle
 from fpt_ros.nodes.loop_node import LoopNode
-from fpt_ros.nodes.qos import LATEST, heard_qos, sensor_qos
+from fpt_ros.nodes.qos import LATEST, heard_qos, loop_qos, sensor_qos
 from fpt_ros.nodes.ros_parameters import declare, watch
 from fpt_ros.parameters import Value
 
@@ -28,18 +29,46 @@ class ParameterisedNode(LoopNode):
 
     def __init__(self, kind: type[Stage]) -> None:
         super().__init__(kind.name)
-        self.stage: Any = kind(declare(self, kind.parameters))
-        self._pending: dict[str, Value] = {}
-        self._changes = self.create_publisher(ParameterEvent, CHANGES, 10)
+        self._kept = Kept(kind.name, self.get_logger().error)
+        given = declare(self, kind.parameters)
+        changed, cycles = self._kept.rewind(self._goes_on_at()), self._kept.cycles
+        self.stage: Any = kind({**given, **changed}, cycles[-1].state if cycles else None)
+        self._pending = dict(self._kept.pending)
+        known = {**changed, **self._pending}
+        self.set_parameters([RosParameter(name, value=value) for name, value in known.items()])
+        self._changes = self.create_publisher(ParameterEvent, CHANGES, loop_qos())
         self._publish = self.advertise(kind.output) if self.publishes else None
         self._encode = Codec(kind.output).encode
         self._sent = b""
+        if cycles:
+            self._go_on_from(cycles)
         watch(self, self._accept)
+
+    def _goes_on_at(self) -> int:
+        """Stamp [ns] of the first cycle whose changes of parameters are not in force yet."""
+        return self._kept.cycles[-1].stamp + 1 if self._kept.cycles else 0
+
+    def _go_on_from(self, cycles: list[KeptCycle]) -> None:
+        """In the place of a process that was killed: its messages are there again as well."""
+        latest = cycles[-1]
+        self.stage.clock[0], self.stage.clock[1] = latest.clock
+        self.cycles_done, self._sent = latest.count, latest.output
+        for stamp, values in self._kept.told:
+            self._tell(stamp, values)
+        for each in cycles:
+            if self._publish is not None:
+                self._publish(each.output)
+        self.get_logger().warning(f"started again: {latest.count} cycles are done")
 
     @property
     def publishes(self) -> bool:
         """Whether the stage takes part in the loop."""
         return True
+
+    @property
+    def stamp(self) -> int:
+        """Of the latest cycle [ns]."""
+        raise NotImplementedError
 
     def _accept(self, changes: Mapping[str, Value]) -> None:
         """Try a change on a copy, keep it for the next cycle boundary.
@@ -50,6 +79,7 @@ class ParameterisedNode(LoopNode):
         ours = {name: value for name, value in changes.items() if name in self.stage.values}
         if ours:
             type(self.stage)({**self.stage.values, **self._pending, **ours})
+            self._kept.accept({**self._pending, **ours})
             self._pending.update(ours)
 
     def apply_changes(self, stamp: int) -> None:
@@ -58,6 +88,11 @@ class ParameterisedNode(LoopNode):
             return
         changes, self._pending = self._pending, {}
         self.stage.configure(changes)
+        self._kept.put_into_force(stamp, changes)
+        self._tell(stamp, changes)
+
+    def _tell(self, stamp: int, changes: Mapping[str, Value]) -> None:
+        """Say that parameters have changed."""
         event = ParameterEvent(node=self.get_fully_qualified_name())
         event.stamp.sec, event.stamp.nanosec = divmod(stamp, SECOND)
         event.changed_parameters = [
@@ -66,11 +101,12 @@ class ParameterisedNode(LoopNode):
         self._changes.publish(event)
 
     def send(self, frame: Frame) -> None:
-        """Publish the stage's output."""
+        """Publish the stage's output, once it is kept."""
         assert self._publish is not None
-        self._sent = self._encode(frame)
-        self._publish(self._sent)
+        self._sent = sent = self._encode(frame)
         self.cycles_done += 1
+        self._kept.add(self.stamp, self.stage, self.cycles_done, sent)
+        self._publish(sent)
 
     def send_again(self) -> None:
         """Publish the last output once more: who has it ignores it, who waits for it goes on."""
@@ -90,7 +126,8 @@ class StageNode(ParameterisedNode):
         inputs = self._inputs = self.stage.inputs
         realtime = bool(self.stage.values.get("realtime", False))
         cycle_time = round(float(self.stage.values.get("cycle_time", 0.0)) * SECOND)
-        self._matcher = Matcher(inputs, cycle_time, realtime)
+        acted = self._kept.cycles[-1].stamp if self._kept.cycles else -1
+        self._matcher = Matcher(inputs, cycle_time, realtime, acted)
         self._realtime = self.newest_counts = realtime
         self._newest: list[Frame | None] | None = None
         self._robot = bool(self.stage.values.get("robot", False))
@@ -106,6 +143,11 @@ class StageNode(ParameterisedNode):
     def publishes(self) -> bool:
         """A tuner without a method has no inputs, and is not in the loop."""
         return bool(self.stage.inputs)
+
+    @property
+    def stamp(self) -> int:
+        """Of the cycle acted on last [ns]."""
+        return self._matcher.acted
 
     def health(self) -> tuple[str, dict[str, object]]:
         """What the stage reports."""

@@ -1,0 +1,56 @@
+"""The private folder of a run: what its nodes keep for those that are started in their place.
+
+``fpt run`` makes it in memory where it can, tells its processes by an environment variable, and
+removes it at the end. Nodes that are started by hand have none, and keep nothing.
+"""
+
+import os
+import tempfile
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+from fpt_ros.nodes.shared_memory import FOLDER
+
+VARIABLE = "FPT_RUN_FOLDER"
+
+PREFIX = "fpt_ros-"
+
+_GID = ".gid"
+
+
+@contextmanager
+def made() -> Iterator[Path]:
+    """Make the folder of a run, for its user alone."""
+    in_memory = FOLDER if os.access(FOLDER, os.W_OK | os.X_OK) else None
+    with tempfile.TemporaryDirectory(prefix=PREFIX, dir=in_memory) as folder:
+        yield Path(folder)
+
+
+def mine() -> Path | None:
+    """The folder of the run that this process belongs to."""
+    given = os.environ.get(VARIABLE)
+    return Path(given) if given else None
+
+
+def introduce(topic: str, gid: bytes) -> None:
+    """Say, before it publishes, that this publisher of ``topic`` (absolute name) is the run's own.
+
+    Who has listened to the one that was killed knows by this whom to listen to now.
+    """
+    folder = mine()
+    if folder is not None and gid:
+        (folder / f"{gid.hex()}{_suffix(topic)}").touch()
+
+
+def own_publishers(topic: str) -> set[bytes]:
+    """GIDs of the publishers of ``topic`` that the run has had; empty: they are not known."""
+    folder = mine()
+    if folder is None:
+        return set()
+    suffix = _suffix(topic)
+    return {bytes.fromhex(path.name.removesuffix(suffix)) for path in folder.glob(f"*{suffix}")}
+
+
+def _suffix(topic: str) -> str:
+    return topic.replace("/", "~") + _GID
