@@ -17,6 +17,9 @@ from fpt_ros.bags.sqlite_file import MAGIC as SQLITE
 from fpt_ros.bags.sqlite_file import SqliteScan
 from fpt_ros.errors import BadInput
 
+INFO = "fpt_ros"
+"""Metadata record in front of our own recordings: what the run is."""
+
 END = "fpt_ros.end"
 """Metadata record behind the messages of our own recordings: how the run ended."""
 

@@ -3,11 +3,10 @@
 from dataclasses import dataclass, field
 
 from fpt_ros.bags import changes, diagnostics, parameter_text
-from fpt_ros.bags.bag import END, Bag
+from fpt_ros.bags.bag import END, INFO, Bag
 from fpt_ros.bags.block import Block, Source
 from fpt_ros.bags.loop_series import loop_topic
 from fpt_ros.bags.scan import CUT
-from fpt_ros.bags.writer import INFO
 from fpt_ros.cycle.plant_simulator import PlantSimulator
 from fpt_ros.errors import BadInput
 from fpt_ros.messages.frames import SECOND

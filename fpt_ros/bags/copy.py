@@ -8,11 +8,10 @@ from ruamel.yaml.error import YAMLError
 
 from fpt_ros import __version__
 from fpt_ros.bags import definitions, parameter_text, schemas
-from fpt_ros.bags.bag import COUNT, END, Bag
+from fpt_ros.bags.bag import COUNT, END, INFO, Bag
 from fpt_ros.bags.block import Kind, Source
 from fpt_ros.bags.mcap_file import McapFile
 from fpt_ros.bags.metadata import Part, TopicPart
-from fpt_ros.bags.writer import INFO
 from fpt_ros.errors import BadInput
 from fpt_ros.yaml_text import parse
 

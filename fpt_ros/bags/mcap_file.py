@@ -6,13 +6,14 @@ import zlib
 from array import array
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Protocol
+from typing import Protocol, Self
 
 import zstandard
 from mcap.data_stream import RecordBuilder
 from mcap.records import Attachment, Channel, Header, Metadata, Schema
 
 from fpt_ros.bags import records
+from fpt_ros.bags.left import Left
 from fpt_ros.bags.records import MAGIC
 from fpt_ros.bags.side_file import SideFile, write_all
 from fpt_ros.bags.summary import Chunk, Summary
@@ -41,9 +42,18 @@ class McapFile:
         finished: whether the summary has been written: nothing can be added any more.
     """
 
+    _side: SideFile | None
+
     def __init__(self, path: Path, profile: str, library: str, aside: bool = False) -> None:
         """``aside``: keep the messages of the open chunk in a file beside."""
-        self._file = os.open(path, os.O_WRONLY | os.O_CREAT | os.O_EXCL, 0o666)
+        self._begin(os.open(path, os.O_WRONLY | os.O_CREAT | os.O_EXCL, 0o666), profile, library)
+        self._write(self._head)
+        if aside:
+            self._side = SideFile(path, self._head)
+
+    def _begin(self, file: int, profile: str, library: str) -> None:
+        self._file = file
+        self._head = MAGIC + _bytes(Header(profile=profile, library=library))
         self._written, self._crc = 0, 0
         self._chunk = bytearray()
         self._rows: dict[int, array[int]] = {}
@@ -54,12 +64,31 @@ class McapFile:
         self.counts: dict[int, int] = {}
         self._first = self._last = -1
         self._span: tuple[int, int] | None = None
-        self._side: SideFile | None = None
+        self._side = None
         self.finished = False
-        head = MAGIC + _bytes(Header(profile=profile, library=library))
-        self._write(head)
-        if aside:
-            self._side = SideFile(path, head)
+
+    @classmethod
+    def reopened(cls, left: Left, profile: str, library: str) -> Self:
+        """Go on with a file that a killed process has left, and a side file of its own."""
+        file = cls.__new__(cls)
+        file._begin(os.open(left.path, os.O_WRONLY), profile, library)
+        os.ftruncate(file._file, left.size)
+        os.lseek(file._file, left.size, os.SEEK_SET)
+        file._written, file._crc = left.size, left.crc
+        file._summary = left.summary
+        file._schemas = {each.name: each.id for each in left.summary.schemas}
+        file._chunk += left.announcements
+        file._announced = left.announcements
+        for channel in left.summary.channels:
+            file.counts[channel.id] = left.count(channel.id)
+        chunks = left.summary.chunks
+        if chunks:
+            file._span = min(each.first for each in chunks), max(each.last for each in chunks)
+        for each in left.aside:
+            file.message(*each)
+        file.flush()
+        file._side = SideFile(left.path, file._head + left.announcements, again=True)
+        return file
 
     def attach(self, name: str, media_type: str, data: bytes) -> None:
         """Add a file of its own, outside the messages."""

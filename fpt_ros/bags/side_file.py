@@ -14,12 +14,18 @@ from fpt_ros.bags.files import SIDE
 class SideFile:
     """Holds what the recording ``path`` does not hold yet. All methods may raise OSError."""
 
-    def __init__(self, path: Path, head: bytes) -> None:
-        """``head``: magic and header."""
+    def __init__(self, path: Path, head: bytes, again: bool = False) -> None:
+        """``head``: magic and header; ``again``: in the place of one that is not needed any more,
+        with its schemas and channels behind the header.
+        """
         self._path = path.with_name(path.name + SIDE)
-        self._file = os.open(self._path, os.O_WRONLY | os.O_CREAT | os.O_EXCL | os.O_APPEND, 0o666)
+        made = self._path.with_name(self._path.name + ".new") if again else self._path
+        how = os.O_WRONLY | os.O_CREAT | os.O_APPEND | (os.O_TRUNC if again else os.O_EXCL)
+        self._file = os.open(made, how, 0o666)
         self._head = len(head)
         write_all(self._file, head)
+        if again:
+            made.replace(self._path)
 
     def announce(self, records: bytes) -> None:
         """Add schemas and channels, which stay; the chunk has to be empty."""

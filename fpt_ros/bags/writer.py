@@ -9,8 +9,10 @@ from typing import NamedTuple, Self
 
 from fpt_ros import __version__
 from fpt_ros.bags import parameter_text
-from fpt_ros.bags.bag import COUNT, END
+from fpt_ros.bags.bag import COUNT, END, INFO
 from fpt_ros.bags.files import METADATA
+from fpt_ros.bags.left import Left
+from fpt_ros.bags.left_parts import part, parts_left
 from fpt_ros.bags.mcap_file import McapFile
 from fpt_ros.bags.metadata import Part, TopicPart, write_metadata
 from fpt_ros.bags.schemas import Schema, offered_qos, schema, yaml_text
@@ -18,18 +20,19 @@ from fpt_ros.bags.split import Split
 from fpt_ros.errors import BadInput, RunFailed
 from fpt_ros.parameters import Values
 
-INFO = "fpt_ros"
-"""Metadata record in front: what the run is."""
-
 NEVER = Split()
 
 FLUSH_PERIOD = 1.0
 """Messages are this old [s] at most, by the wall clock, when they go to the file."""
 
 
+_NAMES = "ros2", f"fpt_ros {__version__}"
+"""Profile and library."""
+
+
 class _Topic(NamedTuple):
     schema: Schema
-    qos: list[dict[str, object]]
+    qos: object
 
 
 class BagWriter:
@@ -39,6 +42,7 @@ class BagWriter:
     second at most, and with ``aside`` nothing. Not shared between threads.
 
     Attributes:
+        stamps: of what a killed process had recorded, by topic [ns].
         reason: why the run was incomplete, where the context ends without an error; empty: it was
             whole.
     """
@@ -50,6 +54,7 @@ class BagWriter:
         info: Mapping[str, str],
         split: Split = NEVER,
         aside: bool = False,
+        again: bool = False,
     ) -> None:
         """Create the directory, and put what is known at the start in front of the file.
 
@@ -59,6 +64,7 @@ class BagWriter:
             info: experiment, variant, engine, version, namespace, ...
             split: when to go on in another file.
             aside: keep every message in a side file until its chunk is written.
+            again: go on with what a killed process has left in the directory, if it did.
 
         Raises:
             BadInput: the directory exists or cannot be created.
@@ -70,6 +76,13 @@ class BagWriter:
         self._channels: dict[str, int] = {}
         self._parts: list[Part] = []
         self._text = parameter_text.to_text(parameters)
+        self.stamps: dict[str, list[int]] = {}
+        self._flushed = monotonic()
+        if again:
+            left = parts_left(directory)
+            if left:
+                self._go_on_with(left)
+                return
         _make(directory)
         try:
             self._file = self._opened()
@@ -79,7 +92,23 @@ class BagWriter:
             raise BadInput(f"{self.path} cannot be created: {error.strerror}") from error
         with self._writing(self.path):
             self._begin()
-        self._flushed = monotonic()
+
+    def _go_on_with(self, parts: list[Left]) -> None:
+        """The recording is as if its process had not been killed."""
+        for left in parts:
+            about = part(left)
+            self._parts.append(about)
+            self._channels = {each.topic: each.id for each in left.summary.channels}
+            for topic, channel in self._channels.items():
+                self._topics[topic] = _Topic(
+                    schema(about.topics[topic].type), about.topics[topic].qos
+                )
+                self.stamps.setdefault(topic, []).extend(left.stamps_of(channel))
+        self._parts.pop()
+        self._info = dict(parts[0].metadata[INFO])
+        self._text = parts[-1].attachments[parameter_text.NAME].decode()
+        with self._writing(self.path):
+            self._file = McapFile.reopened(parts[-1], *_NAMES)
 
     @property
     def path(self) -> Path:
@@ -198,7 +227,7 @@ class BagWriter:
             self.close(reason or type(error).__name__)
 
     def _opened(self) -> McapFile:
-        return McapFile(self.path, "ros2", f"fpt_ros {__version__}", self._aside)
+        return McapFile(self.path, *_NAMES, self._aside)
 
     def _begin(self) -> None:
         """What stands in front of a file's messages."""

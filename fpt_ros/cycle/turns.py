@@ -18,9 +18,10 @@ class Turns(Generic[Item]):
         turns.add(0, "a")    # a, b
     """
 
-    def __init__(self, n: int) -> None:
+    def __init__(self, n: int, done: int = 0) -> None:
+        """``done``: items of all topics that have had their turn already."""
         self._waiting: list[deque[Item]] = [deque() for _ in range(n)]
-        self._turn = 0
+        self._turn = done % n
 
     def add(self, topic: int, item: Item) -> Iterator[Item]:
         """Take the next item of a topic; gives those whose turn has come."""

@@ -2,7 +2,7 @@
 
 The nodes and the recorder are processes of their own, each in its own session, so that a Ctrl-C in
 the terminal reaches only this one, which then ends the loop first and the recorder last. Whatever
-happens, the recording is closed, and no process is left. A process that was killed is started again.
+happens, the recording is closed, and no process is left. One that was killed is started again.
 """
 
 import asyncio
@@ -205,11 +205,12 @@ class _Graph:
             cycle = int(lines[-1])
             if cycle < 0:  # paused
                 cycle, self._moved = -1 - cycle, asyncio.get_running_loop().time()
-            for child in self._children.values() if self._core is not None else ():
-                if child.spread and cycle > child.began + 1:  # it has started, quicker on many
+            core = self._core
+            for child in self._children.values():
+                if core is not None and child.spread and cycle > child.began + 1:  # has started
                     child.spread = False
                     if child.name not in (ParameterTuner.name, RECORDER):
-                        cores.keep_on(self._core, child.process.pid)
+                        cores.keep_on(core, child.process.pid)
             if cycle != self._cycle:
                 self._cycle, self._moved = cycle, asyncio.get_running_loop().time()
             if self._progress is not None:

@@ -5,7 +5,7 @@ import struct
 from array import array
 from collections.abc import Callable, Mapping
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, cast
 
 from fpt_ros.cycle.stage import Stage
 from fpt_ros.messages.topics import DEPTH
@@ -25,14 +25,14 @@ class KeptCycle(NamedTuple):
     Attributes:
         stamp: of the cycle [ns].
         clock: of the stage.
-        count: of cycles done.
+        done: cycles so far.
         state: of the stage.
         output: the message that was about to be published.
     """
 
     stamp: int
     clock: tuple[int, int]
-    count: int
+    done: int
     state: "array[float]"
     output: bytes
 
@@ -86,13 +86,13 @@ class Kept:
             self.pending = {**values, **self.pending}
         return in_force
 
-    def add(self, stamp: int, stage: Stage, count: int, output: bytes) -> None:
+    def add(self, stamp: int, stage: Stage, done: int, output: bytes) -> None:
         """Keep a cycle."""
         if self._cycles is None:
             return
-        state = memoryview(stage.state)
+        state = memoryview(cast("array[float]", stage.state))
         first, latest = stage.clock
-        head = _HEAD.pack(stamp, first, latest, count, state.nbytes)
+        head = _HEAD.pack(stamp, first, latest, done, state.nbytes)
         try:
             self._cycles.add(b"".join((head, state, output)))
         except OSError as error:
@@ -127,7 +127,7 @@ class Kept:
 
 
 def _cycle(record: bytes) -> KeptCycle:
-    stamp, first, latest, count, length = _HEAD.unpack_from(record)
+    stamp, first, latest, done, length = _HEAD.unpack_from(record)
     end = _HEAD.size + length
     state = array("d", record[_HEAD.size : end])
-    return KeptCycle(stamp, (first, latest), count, state, record[end:])
+    return KeptCycle(stamp, (first, latest), done, state, record[end:])

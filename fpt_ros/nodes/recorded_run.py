@@ -40,6 +40,14 @@ def parameter_files() -> list[Path]:
     return [Path(path) for flag, path in pairs if flag == "--params-file"]
 
 
+def last_change(directory: Path) -> int:
+    """When something was written last to a recording that a killed process has left [ns]."""
+    try:
+        return max((path.stat().st_mtime_ns for path in directory.iterdir()), default=1)
+    except OSError:
+        return 0  # it did not come to that
+
+
 def reason_to_end() -> str:
     """What the process that started the graph says about its end."""
     descriptor = os.environ.get("FPT_REASON_FD")

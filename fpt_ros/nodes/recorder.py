@@ -11,40 +11,43 @@ Where the recording cannot be written any more, the run goes on, and the recorde
 import os
 import struct
 import sys
-from array import array
 from collections.abc import Callable
-from itertools import pairwise
 from time import time_ns
 
 from diagnostic_msgs.msg import DiagnosticStatus
+from rclpy.qos import DurabilityPolicy
 from rclpy.subscription import Subscription
 
 from fpt_ros import __version__
 from fpt_ros.bags.split import Split
 from fpt_ros.bags.writer import BagWriter
 from fpt_ros.cycle.arrivals import Arrivals
-from fpt_ros.cycle.matcher import under_way
 from fpt_ros.cycle.turns import Turns
 from fpt_ros.errors import RunFailed
 from fpt_ros.experiments import description
 from fpt_ros.messages.cdr import Codec, MalformedMessage
 from fpt_ros.messages.frames import SECOND
 from fpt_ros.messages.topics import DEPTH, JOINT_STATES, LOOP_TOPICS, TUNING, Topic
+from fpt_ros.nodes import run_folder
 from fpt_ros.nodes.loop_node import LoopNode, message_class
 from fpt_ros.nodes.qos import HEARD, loop_qos, sensor_qos
-from fpt_ros.nodes.recorded_run import reason_to_end, recorded_run
+from fpt_ros.nodes.recorded_cycles import RecordedCycles
+from fpt_ros.nodes.recorded_run import last_change, reason_to_end, recorded_run
 from fpt_ros.nodes.recorded_until import BEGUN, RECORDED_UNTIL, TIME, encode_time
 from fpt_ros.nodes.ros_parameters import declare
 from fpt_ros.nodes.snapshot import Snapshot
 from fpt_ros.nodes.stage_node import CHANGES
+from fpt_ros.nodes.take import gid_of
 from fpt_ros.parameters import integer, word
 
 ACKNOWLEDGE = 8
 """Cycles between two messages to the plant."""
 
+ROSOUT = "/rosout"
+
 SIDE_TOPICS = {
     "/diagnostics": "diagnostic_msgs/msg/DiagnosticArray",
-    "/rosout": "rcl_interfaces/msg/Log",
+    ROSOUT: "rcl_interfaces/msg/Log",
     "/parameter_events": "rcl_interfaces/msg/ParameterEvent",
     CHANGES: "rcl_interfaces/msg/ParameterEvent",
 }
@@ -55,6 +58,9 @@ SIDE_DEPTH = 1000
 
 NICE = 10
 """In real time the loop comes first: misses with a recorder were down by a third to a half."""
+
+OPENED, STARTED = "recorder.opened", "recorder.started"
+"""Steps that a recorder started in the place of another finds taken."""
 
 Message = tuple[str, str, int, bytes]  # name and type of the topic, stamp [ns], bytes
 
@@ -72,6 +78,7 @@ class Recorder(LoopNode):
         self._cycles = integer(values, "cycles")
         run = recorded_run(values)
         self._parameters = run.parameters
+        self._said_before = run_folder.mark(OPENED) and last_change(run.directory)
         self._writer = BagWriter(
             run.directory,
             self._parameters,
@@ -85,25 +92,32 @@ class Recorder(LoopNode):
             },
             Split.parse(word(values, "split")),
             aside=True,
+            again=bool(self._said_before),
         )
-        self._stamps = array("q")
-        self._counts: list[int] = []
         self._acknowledged = 0
         self._lost: RunFailed | None = None
         self._snapshot: Snapshot | None = None
         self._started = False
         self._side_subscriptions: list[tuple[Subscription, Callable[[bytes], None]]] = []
         self._until = self.create_publisher(message_class(TIME), RECORDED_UNTIL, loop_qos(1))
-        for topic in LOOP_TOPICS:
-            if topic != TUNING or values.get("await_tuning") is True:
-                self._record_loop_topic(topic)
-        self._turns = Turns[Message](len(self._counts))
+        until = self.resolve_topic_name(RECORDED_UNTIL)
+        run_folder.introduce(until, gid_of(self._until))
+        tuned = values.get("await_tuning") is True
+        topics = [topic for topic in LOOP_TOPICS if tuned or topic != TUNING]
+        before = [self._writer.stamps.get(self.resolve_topic_name(t.name), []) for t in topics]
+        self._recorded = RecordedCycles(self._lockstep, before)
+        self._turns = Turns[Message](len(topics), sum(self._recorded.counts))
+        for index, topic in enumerate(topics):
+            self._record_loop_topic(index, topic)
         for name, kind in SIDE_TOPICS.items():
             self._record_side_topic(name, kind)
+        if run_folder.is_marked(STARTED):
+            self.get_logger().warning(f"started again: {self._recorded.done} cycles are recorded")
+            self._started = True
+            self._acknowledge()
 
-    def _record_loop_topic(self, topic: Topic) -> None:
-        index, name, kind = len(self._counts), topic.name, topic.type
-        self._counts.append(0)
+    def _record_loop_topic(self, index: int, topic: Topic) -> None:
+        name, kind = topic.name, topic.type
         self._writer.add_topic(self.resolve_topic_name(name), kind, DEPTH)
         qos = sensor_qos(HEARD) if self._robot and topic is JOINT_STATES else loop_qos(HEARD)
         self.subscribe_raw(name, kind, qos, self._on_loop_message(index, topic))
@@ -116,7 +130,7 @@ class Recorder(LoopNode):
             self._writer.write(name, kind, stamp, data)
         except RunFailed as error:
             self._lost = RunFailed(
-                f"the recording ends after {self._done()} cycles, the run went on: {error}"
+                f"the recording ends after {self._recorded.done} cycles, the run went on: {error}"
             )
             self.level = DiagnosticStatus.ERROR
             self.get_logger().error(str(self._lost))
@@ -129,77 +143,53 @@ class Recorder(LoopNode):
         return ("recording" if self._started else "waiting for the nodes of the loop"), {}
 
     def _on_loop_message(self, index: int, topic: Topic) -> Callable[[bytes], bool]:
-        write, counts, stamps = self._write, self._counts, self._stamps
+        write, recorded = self._write, self._recorded
         arrivals = Arrivals() if self._robot and topic is JOINT_STATES else None
         name, kind, decode = self.resolve_topic_name(topic.name), topic.type, Codec(topic).decode
 
         def record(data: bytes) -> bool:
             try:
-                seconds, nanoseconds = _STAMP.unpack_from(data, 4)
-                stamp = seconds * SECOND + nanoseconds
+                stamp = _stamp_of(data)
                 if arrivals is not None:
                     stamp = arrivals.stamp(stamp, time_ns())
-                if self._is_unexpected(index, stamp):
+                if recorded.is_unexpected(index, stamp):
                     decode(data)
                 if stamp < 0:
                     raise MalformedMessage
             except (struct.error, MalformedMessage):
                 self.ignore(f"{name}: {len(data)} bytes that are not a {kind}")
                 return False
-            count = counts[index]
-            if self._lockstep:
-                if count and stamp <= stamps[count - 1]:
-                    return False  # not of this run: a second plant that is about to give up
-                if count == 0 and stamp > 0:
-                    raise under_way(stamp)
-                if count == len(stamps):
-                    stamps.append(stamp)
-                elif stamps[count] != stamp:
-                    raise RunFailed(
-                        f"the recording is not complete: message {count} of {name} has the stamp "
-                        f"{stamp / SECOND:.9g} s, {stamps[count] / SECOND:.9g} s was due"
-                    )
-            elif index == 0:  # the plant's own: of every cycle, others may miss one
-                stamps.append(stamp)
-            counts[index] = count + 1
+            if not recorded.is_next(index, stamp, name):
+                return False
             if self._lockstep:
                 for message in self._turns.add(index, (name, kind, stamp, data)):
                     write(*message)
             else:
                 write(name, kind, stamp, data)
-            if self._done() >= self._acknowledged + ACKNOWLEDGE:
+            if recorded.done >= self._acknowledged + ACKNOWLEDGE:
                 self._acknowledge()
             return True
 
         return record
 
-    def _is_unexpected(self, index: int, stamp: int) -> bool:
-        """Whether this is not the stamp that follows, so that the bytes may be anything."""
-        stamps, count = self._stamps, self._counts[index]
-        if count < len(stamps):
-            return stamps[count] != stamp
-        return len(stamps) < 2 or stamp - stamps[-1] != stamps[-1] - stamps[-2]
-
-    def _done(self) -> int:
-        """Cycles recorded: of all topics in lockstep; in real time some answers may be missing."""
-        return min(self._counts) if self._lockstep else len(self._stamps)
-
     def _acknowledge(self) -> None:
-        done = self._done()
+        done = self._recorded.done
         if self._started and done > self._acknowledged:
             self._acknowledged = self.cycles_done = done
-            self._until.publish(encode_time(self._stamps[done - 1]))
+            self._until.publish(encode_time(self._recorded.stamps[done - 1]))
 
     def _record_side_topic(self, name: str, kind: str) -> None:
         resolved = self.resolve_topic_name(name)
         self._writer.add_topic(resolved, kind)
 
         def record(data: bytes) -> None:
-            stamp = self._stamps[-1] if self._stamps else 0
-            self._write(resolved, kind, stamp, data)
+            if name == ROSOUT and _stamp_of(data) <= self._said_before:
+                return
+            stamps = self._recorded.stamps
+            self._write(resolved, kind, stamps[-1] if stamps else 0, data)
 
-        # /rosout is latched: what was said before we came is recorded too
-        qos = loop_qos(SIDE_DEPTH) if name == "/rosout" else SIDE_DEPTH
+        # what was said before we came is recorded too
+        qos = loop_qos(SIDE_DEPTH) if name in (ROSOUT, CHANGES) else SIDE_DEPTH
         subscription = self.create_subscription(message_class(kind), name, record, qos, raw=True)
         self._side_subscriptions.append((subscription, record))
         if name == CHANGES:
@@ -232,12 +222,18 @@ class Recorder(LoopNode):
         if self._lost is None:
             self._writer.set_parameters(self._parameters)
         self._started = True
+        run_folder.mark(STARTED)
         self._until.publish(encode_time(BEGUN))
 
     def _matched(self) -> bool:
         """Whether it hears all nodes: each loop topic, and all changes of parameters."""
         heard = all(each.get_publisher_count() for each in self.loop_subscriptions)
-        return heard and self._changes.get_publisher_count() >= self.count_publishers(CHANGES)
+        changing = [
+            each
+            for each in self.get_publishers_info_by_topic(CHANGES)
+            if each.qos_profile.durability == DurabilityPolicy.TRANSIENT_LOCAL
+        ]
+        return heard and self._changes.get_publisher_count() >= len(changing)
 
     def _loop_nodes(self) -> list[str]:
         """Fully qualified names of the nodes that publish the loop's topics."""
@@ -269,24 +265,27 @@ class Recorder(LoopNode):
         reason = reason_to_end() or (str(error) if error is not None else "")
         if self._lost is not None:
             raise self._lost
-        if not reason and len(self._stamps) < self._cycles:
-            reason = f"the recorder was stopped after {len(self._stamps)} of {self._cycles} cycles"
-        if not reason and self._lockstep and len(set(self._counts)) > 1:
+        done = len(self._recorded.stamps)
+        if not reason and done < self._cycles:
+            reason = f"the recorder was stopped after {done} of {self._cycles} cycles"
+        if not reason and self._recorded.is_within_a_cycle:
             reason = "the recorder was stopped in the middle of a cycle"
         self._writer.close(reason)
-        if reason and self._saw_the_end():
+        if reason and self._recorded.saw_the_end(self._cycles):
             raise RunFailed(
-                f"the recording lacks {self._cycles - len(self._stamps)} of {self._cycles} cycles: "
+                f"the recording lacks {self._cycles - done} of {self._cycles} cycles: "
                 "the recorder was too slow, or stood still; the run was complete"
             )
 
-    def _saw_the_end(self) -> bool:
-        """In real time: whether the last cycle has come, whatever is missing before it."""
-        stamps = self._stamps
-        if self._lockstep or not 2 <= len(stamps) < self._cycles:
-            return False
-        shortest = min(b - a for a, b in pairwise(stamps))
-        return stamps[-1] - stamps[0] >= (self._cycles - 1) * shortest > 0
+
+def _stamp_of(data: bytes) -> int:
+    """The time [ns] in front of a message.
+
+    Raises:
+        struct.error: there is none.
+    """
+    seconds, nanoseconds = _STAMP.unpack_from(data, 4)
+    return int(seconds) * SECOND + int(nanoseconds)
 
 
 def main() -> None:

@@ -52,5 +52,22 @@ def own_publishers(topic: str) -> set[bytes]:
     return {bytes.fromhex(path.name.removesuffix(suffix)) for path in folder.glob(f"*{suffix}")}
 
 
+def mark(step: str) -> bool:
+    """Note that a step is taken; true: a process before this one has taken it already."""
+    folder = mine()
+    if folder is None:
+        return False
+    path = folder / f"{step}.mark"
+    taken = path.exists()
+    path.touch()
+    return taken
+
+
+def is_marked(step: str) -> bool:
+    """Whether a process of this run has taken a step."""
+    folder = mine()
+    return folder is not None and (folder / f"{step}.mark").exists()
+
+
 def _suffix(topic: str) -> str:
     return topic.replace("/", "~") + _GID

@@ -52,13 +52,13 @@ class ParameterisedNode(LoopNode):
         """In the place of a process that was killed: its messages are there again as well."""
         latest = cycles[-1]
         self.stage.clock[0], self.stage.clock[1] = latest.clock
-        self.cycles_done, self._sent = latest.count, latest.output
+        self.cycles_done, self._sent = latest.done, latest.output
         for stamp, values in self._kept.told:
             self._tell(stamp, values)
         for each in cycles:
             if self._publish is not None:
                 self._publish(each.output)
-        self.get_logger().warning(f"started again: {latest.count} cycles are done")
+        self.get_logger().warning(f"started again: {latest.done} cycles are done")
 
     @property
     def publishes(self) -> bool:
