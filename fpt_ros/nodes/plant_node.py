@@ -85,6 +85,8 @@ class PlantNode(ParameterisedNode):
         self._origin = self._stamp - self._cycle * self.stage.cycle_time
         self._sent_at.append(monotonic())
         self._control.paused = self._kept.aside.get(PAUSED) is True
+        if self._realtime:  # until a command comes in time
+            self._command = self.stage.safe_command(self._stamp - self.stage.timeout)
 
     def begin(self) -> None:
         """Publish cycle 0, where a recorder is awaited as soon as it says that it has begun."""
@@ -109,6 +111,8 @@ class PlantNode(ParameterisedNode):
         assert isinstance(command, Command)
         if self._realtime and command.stamp > self._timed:
             self._time(command.stamp)
+        if self._realtime and self._cycle:
+            self._start_clock()
         if command.stamp != self._stamp or command is self._command:
             return False
         repeated = self._command is not None and self._command.stamp == command.stamp
@@ -122,7 +126,7 @@ class PlantNode(ParameterisedNode):
     def _start_clock(self) -> None:
         """Real time begins when cycle 0 has gone around, and is recorded: all are there then.
 
-        It goes on where the cycle that was under way has gone around.
+        It goes on where somebody commands.
         """
         if self._clock_runs or self._command is None:
             return

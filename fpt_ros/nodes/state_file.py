@@ -14,8 +14,9 @@ from zlib import crc32
 
 _HEAD = struct.Struct("<8sQQ")
 _MAGIC = b"fptstate"
-_RECORD = struct.Struct("<QII")
-"""Number of the record, from 1; its length; checksum over both and the bytes."""
+_RECORD = struct.Struct("<12sI")
+_NUMBERS = struct.Struct("<QI")
+"""Of a record: its number, from 1, and its length; behind them a checksum over all of it."""
 
 _SPARE = 1024
 """Bytes by which a record may grow before the file has to."""
@@ -57,7 +58,8 @@ class StateFile:
             assert self._data is not None
         self._number = number = self._number + 1
         at = _HEAD.size + number % self._slots * self._size
-        head = _RECORD.pack(number, length, crc32(record, number + length & 0xFFFFFFFF))
+        numbers = _NUMBERS.pack(number, length)
+        head = _RECORD.pack(numbers, crc32(record, crc32(numbers)))
         self._data[at : at + _RECORD.size + length] = head + record
 
     def _whole(self) -> Iterator[tuple[int, bytes]]:
@@ -66,11 +68,12 @@ class StateFile:
             return
         for slot in range(self._slots):
             at = _HEAD.size + slot * self._size
-            number, length, crc = _RECORD.unpack_from(self._data, at)
+            numbers, crc = _RECORD.unpack_from(self._data, at)
+            number, length = _NUMBERS.unpack(numbers)
             if not number or _RECORD.size + length > self._size:
                 continue
             record = self._data[at + _RECORD.size : at + _RECORD.size + length]
-            if crc == crc32(record, number + length & 0xFFFFFFFF):
+            if crc == crc32(record, crc32(numbers)):
                 yield number, record
 
     def _open(self) -> None:
