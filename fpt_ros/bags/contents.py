@@ -45,7 +45,9 @@ class Aside:
                         node = self._plant()
                         self.latency = diagnostics.latencies(data, node) or self.latency
                     else:
-                        self.changes.append(changes.change(data))
+                        change = changes.change(data)
+                        if change not in self.changes:  # told again by a node started again
+                            self.changes.append(change)
                 except BadInput as error:
                     raise BadInput(
                         f"{self.bag.path}: {source.topic} at {stamp / SECOND:g} s: {error}"

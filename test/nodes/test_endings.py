@@ -108,7 +108,7 @@ NODES = ["plant_simulator", "fpt_deformer", "parameter_tuner", "recorder"]
 
 @pytest.mark.parametrize("name", samples.sample(NODES, 2, keep=("plant_simulator", "recorder")))
 def test_killed_node(tmp_path, name):
-    process, children = under_way(tmp_path)
+    process, children = under_way(tmp_path, "--restarts", 0)
     segments = segments_of(children)
     asked = monotonic()
     node_of(process, name).kill()

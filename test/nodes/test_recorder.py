@@ -30,7 +30,7 @@ BIN = Path(sys.executable).parent
 def test_killed_recorder_loses_no_acknowledged_cycle(tmp_path, moment):
     """At random moments, some before the first chunk is full."""
     at = random.Random(moment).uniform(0.02, 1.0)
-    process, _ = under_way(tmp_path)
+    process, _ = under_way(tmp_path, "--restarts", 0)
     with watcher() as graph, graph.acknowledgements() as acknowledged:
         graph.wait_for_stamp(0.2 + at)
         node_of(process, "recorder").kill()

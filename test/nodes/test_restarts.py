@@ -1,0 +1,148 @@
+"""kill -9 of nodes of a real graph: started again, they go on, and the numbers are the same."""
+
+import json
+import signal
+from pathlib import Path
+
+import numpy as np
+import psutil
+import pytest
+import samples
+from command import start_fpt
+from test_endings import node_of
+from watcher import watcher
+
+from fpt_ros.bags.reader import info, read_run
+from fpt_ros.engine.engine import Engine
+from fpt_ros.experiments.experiment import load
+from fpt_ros.nodes.run_folder import PREFIX
+from fpt_ros.replay.recorded import Recorded
+from fpt_ros.replay.rerun import rerun
+
+ALL = ["plant_simulator", "denoiser", "trajectory_generator", "parameter_tuner", "fpt_deformer"]
+PATIENCE = 300
+TOPICS = ("joint_states", "state_estimate", "desired", "tuning", "command")
+
+
+def killed(process, name, graph):
+    """Kill a node while the loop runs, and wait until it runs again."""
+    graph.wait_for_next()
+    node_of(process, name).kill()
+    graph.wait_for_next()
+
+
+def outcome(process):
+    stdout, stderr = process.communicate(timeout=PATIENCE)
+    assert process.returncode == 0, stderr
+    return json.loads(stdout), stderr
+
+
+def is_undisturbed(bag, result):
+    """Complete, every cycle there, and all equal to a run in process, to the last bit."""
+    assert info(bag)["complete"] is True
+    assert info(bag)["missing"] == []
+    (found,) = rerun(Recorded(bag)).values()
+    assert found.equal
+    run = read_run(bag)
+    for name in TOPICS:
+        if name in run.topics:
+            assert len(run.topics[name].stamps) == result["cycles"]
+    return run
+
+
+def folders_of(process):
+    used = set()
+    for child in psutil.Process(process.pid).children():
+        maps = Path(f"/proc/{child.pid}/maps").read_text()
+        used |= {Path(line[line.index("/") :]) for line in maps.splitlines() if PREFIX in line}
+    return {path.parent for path in used}
+
+
+def test_a_node_and_the_recorder_at_once(tmp_path):
+    """A change of parameters in flight before it is in force afterwards."""
+    process = start_fpt("run", "tora", "--duration", 5, "--record", tmp_path / "bag", "--json")
+    with watcher() as graph:
+        graph.wait_for_stamp(0.05)
+        (folder,) = folders_of(process)
+        assert graph.set_parameter("fpt_deformer", "A", -0.2) == (True, "")
+        graph.wait_for_next()
+        for name in ("fpt_deformer", "recorder"):
+            node_of(process, name).kill()
+    with watcher() as graph:  # who was there before goes on asking the killed one for a while
+        graph.wait_for_next()
+        assert graph.get_parameter("fpt_deformer", "A") == -0.2
+    result, stderr = outcome(process)
+    assert result["restarts"] == 2
+    assert "the node fpt_deformer was killed by SIGKILL: started again" in stderr
+    run = is_undisturbed(tmp_path / "bag", result)
+    assert result["cycles"] == 5000
+    (change,) = run.changes
+    assert (change.node, change.values) == ("fpt_deformer", {"A": -0.2})
+    assert not folder.exists()
+    assert len(list((tmp_path / "bag").iterdir())) == 2
+
+
+WHOLE = [
+    ("tora_auto", ()),  # with a tuner in the loop
+    ("tora", ("--composed",)),
+    ("panda", ()),
+]
+
+
+@pytest.mark.parametrize(("name", "options"), samples.sample(WHOLE, 0))
+def test_each_node_one_after_the_other_in_20_seconds(tmp_path, name, options):
+    process = start_fpt(
+        "run", name, "--duration", 20, "--record", tmp_path / "bag", "--json", *options
+    )
+    nodes = ["composed", "recorder"] if options else [*ALL, "recorder"]
+    with watcher() as graph:
+        for node in nodes:
+            killed(process, node, graph)
+    result, _ = outcome(process)
+    assert result["restarts"] == len(nodes)
+    run = is_undisturbed(tmp_path / "bag", result)
+    engine = Engine(load(name, duration=20).loop())
+    engine.run()
+    for topic, truth in engine.topics().items():
+        for field, vector in truth.vectors.items():
+            assert vector.tobytes() == run.topics[topic].vectors[field].tobytes()
+
+
+@pytest.mark.parametrize("most", samples.sample([1, 2], 0))
+def test_a_node_that_is_killed_too_often_ends_the_run(tmp_path, most):
+    process = start_fpt(
+        "run", "tora", "--duration", 1000, "--record", tmp_path / "bag", "--restarts", most
+    )
+    with watcher() as graph:
+        for _ in range(most):
+            killed(process, "denoiser", graph)
+        graph.wait_for_next()
+    node_of(process, "denoiser").kill()
+    _, stderr = process.communicate(timeout=PATIENCE)
+    assert process.returncode == 1
+    assert stderr.count("started again") == most
+    assert "the node denoiser was killed by SIGKILL" in stderr.splitlines()[-1]
+    assert info(tmp_path / "bag")["complete"] is False
+
+
+@pytest.mark.parametrize("node", samples.sample(["plant_simulator", "denoiser", "fpt_deformer"], 0))
+def test_in_real_time_it_comes_back(tmp_path, node):
+    """The oscillator bears the safe effort meanwhile."""
+    process = start_fpt(
+        "run", "vdp_second_order", "--realtime", "--duration", 1000, "--record", tmp_path / "bag",
+        "--set", "plant_simulator.dt=0.01",
+    )  # fmt: skip
+    with watcher() as graph:
+        graph.wait_for_stamp(0.0)
+        before = graph.stamp_after(0.5)
+        node_of(process, node).kill()
+        while graph.stamp_after(0.5) < before + 5 * 10**9:
+            pass
+    process.send_signal(signal.SIGINT)
+    _, stderr = process.communicate(timeout=PATIENCE)
+    assert process.returncode == 130, stderr
+    run = read_run(tmp_path / "bag")
+    command, states = run.topics["command"], run.topics["joint_states"]
+    assert set(np.diff(states.stamps)) == {10_000_000}
+    learnt = ~np.isnan(command.vectors["accelerations"][:, 0])
+    assert learnt[-50:].any()  # it controls again, and not the safe effort
