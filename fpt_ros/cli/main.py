@@ -32,6 +32,7 @@ from fpt_ros.cli import (
     robustness,
     run,
     simulate,
+    soak,
     sweep,
     tune,
 )
@@ -70,6 +71,7 @@ COMMANDS: tuple[tuple[str, Callable[..., Any], str], ...] = (
     ("export", export.export, "export"),
     ("layout", layout.layout, ""),
     ("doctor", doctor.doctor, ""),
+    ("soak", soak.soak, ""),
     ("pause", control.pause, ""),
     ("resume", control.resume, ""),
     ("step", control.step, ""),

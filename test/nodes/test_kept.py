@@ -87,6 +87,4 @@ def test_where_there_is_no_space_the_node_goes_on_and_says_so(tmp_path, monkeypa
     kept = Kept("denoiser", said.append, tmp_path)
     kept.add(0, stage, 1, b"")
     kept.add(1, stage, 2, b"")
-    assert said == [
-        "the state cannot be kept, a killed node ends the run: No space left on device"
-    ]
+    assert said == ["the state cannot be kept, a killed node ends the run: No space left on device"]
