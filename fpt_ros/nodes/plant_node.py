@@ -238,7 +238,8 @@ class PlantNode(ParameterisedNode):
         if waits and monotonic() - max(self._sent_at[-1], self._sent_again) > AGAIN:
             self._sent_again = monotonic()
             self.send_again()  # a message of this cycle may have been lost
-        if self._cycle == 0 and self.count_publishers(JOINT_STATES.name) > 1:
+        begins = self._cycle == 0 and not self._kept.cycles
+        if begins and self.count_publishers(JOINT_STATES.name) > 1:
             raise RunFailed(
                 f"another node publishes {self.resolve_topic_name(JOINT_STATES.name)} in this ROS "
                 "domain: use another ROS_DOMAIN_ID or --namespace"

@@ -10,11 +10,10 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
-from fpt_ros.nodes.shared_memory import FOLDER
+from fpt_ros.nodes import shared_memory
+from fpt_ros.nodes.shared_memory import FOLDER, RUN_FOLDER
 
 VARIABLE = "FPT_RUN_FOLDER"
-
-PREFIX = "fpt_ros-"
 
 _GID = ".gid"
 
@@ -22,8 +21,10 @@ _GID = ".gid"
 @contextmanager
 def made() -> Iterator[Path]:
     """Make the folder of a run, for its user alone."""
+    shared_memory.remove(shared_memory.left_folders())
     in_memory = FOLDER if os.access(FOLDER, os.W_OK | os.X_OK) else None
-    with tempfile.TemporaryDirectory(prefix=PREFIX, dir=in_memory) as folder:
+    prefix = RUN_FOLDER.format(os.getpid())
+    with tempfile.TemporaryDirectory(prefix=prefix, dir=in_memory) as folder:
         yield Path(folder)
 
 

@@ -33,15 +33,16 @@ class Sender:
         """Whether a message of this publisher counts."""
         if gid in (self.chosen, UNKNOWN):
             return True
-        own = own_publishers(self._resolved) if gid not in self._strangers else set()
+        if gid in self._strangers:
+            return False
+        own = own_publishers(self._resolved)
         if gid in own:  # one that was started in the place of another
             self.chosen = gid
             return True
         if self.chosen == UNKNOWN and not own:
             return True
-        if gid not in self._strangers:
-            self._strangers.add(gid)
-            self._tell(self._complaint(gid))
+        self._strangers.add(gid)
+        self._tell(self._complaint(gid))
         return False
 
     def choose(self, gid: bytes) -> None:

@@ -9,9 +9,13 @@ import re
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
+from shutil import rmtree
 
 FOLDER = Path("/dev/shm")
 NAMES = re.compile(r"fastrtps_[0-9a-f]{16}(_el)?|lttng-ust-wait-.*")
+
+RUN_FOLDER = "fpt_ros-{}-"
+"""Begins the name of the folder of a run, by the process of ``fpt run``, which removes it."""
 
 
 @contextmanager
@@ -26,17 +30,29 @@ def left_as_found() -> Iterator[None]:
 
 
 def leftovers() -> set[Path]:
-    """Files that no process uses any more."""
+    """Files that no process uses any more, and folders of runs whose process was killed."""
     found = _files()
-    return found - _used() if found else found
+    return (found - _used() if found else found) | left_folders()
+
+
+def left_folders() -> set[Path]:
+    """Folders of runs whose process is not there any more."""
+    found: set[Path] = set()
+    for path in FOLDER.glob(RUN_FOLDER.format("[0-9]*") + "*"):
+        if not Path("/proc", path.name.split("-")[1]).exists():
+            found.add(path)
+    return found
 
 
 def remove(paths: set[Path]) -> int:
-    """Remove files; how many could be."""
+    """Remove files and folders; how many could be."""
     count = 0
     for path in paths:
         with suppress(OSError):  # another user's
-            path.unlink()
+            if path.is_dir():
+                rmtree(path)
+            else:
+                path.unlink()
             count += 1
     return count
 

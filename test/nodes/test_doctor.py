@@ -1,11 +1,14 @@
 """``fpt doctor``: what it finds, and what it says to do."""
 
 import os
+import shutil
 import uuid
 from pathlib import Path
 
 import pytest
 from command import forked_fpt, forked_fpt_json
+
+from fpt_ros.nodes.shared_memory import RUN_FOLDER, left_folders, remove
 
 LEFTOVER = Path("/dev/shm")
 
@@ -43,3 +46,20 @@ def test_leftovers_are_named_and_removed_those_in_use_are_not(leftover):
         assert not leftover.exists()
         assert used.exists()
     os.unlink(used)
+
+
+def test_folders_of_runs_that_were_killed():
+    """By the process in their names: what is used by one that lives stays."""
+    gone = next(n for n in range(2**22, 2**22 + 1000) if not Path(f"/proc/{n}").exists())
+    left, used = (LEFTOVER / RUN_FOLDER.format(n) for n in (gone, os.getpid()))
+    for folder in (left, used):
+        folder.mkdir()
+        (folder / "denoiser.state").write_bytes(b"x")
+    try:
+        assert left_folders() >= {left}
+        assert used not in left_folders()
+        remove(left_folders() & {left})
+        assert not left.exists()
+    finally:
+        for folder in (left, used):
+            shutil.rmtree(folder, ignore_errors=True)

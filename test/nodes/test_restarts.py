@@ -15,7 +15,7 @@ from watcher import watcher
 from fpt_ros.bags.reader import info, read_run
 from fpt_ros.engine.engine import Engine
 from fpt_ros.experiments.experiment import load
-from fpt_ros.nodes.run_folder import PREFIX
+from fpt_ros.nodes.shared_memory import RUN_FOLDER
 from fpt_ros.replay.recorded import Recorded
 from fpt_ros.replay.rerun import rerun
 
@@ -51,10 +51,10 @@ def is_undisturbed(bag, result):
 
 
 def folders_of(process):
-    used = set()
+    used, prefix = set(), RUN_FOLDER.format(process.pid)
     for child in psutil.Process(process.pid).children():
         maps = Path(f"/proc/{child.pid}/maps").read_text()
-        used |= {Path(line[line.index("/") :]) for line in maps.splitlines() if PREFIX in line}
+        used |= {Path(line[line.index("/") :]) for line in maps.splitlines() if prefix in line}
     return {path.parent for path in used}
 
 
