@@ -2,6 +2,7 @@
 
 import json
 import signal
+from contextlib import ExitStack
 from pathlib import Path
 
 import numpy as np
@@ -9,7 +10,10 @@ import psutil
 import pytest
 import samples
 from command import start_fpt
+from std_srvs.srv import Trigger
+from stranger import kinds, stranger
 from test_endings import node_of
+from test_strangers import HEARD
 from watcher import watcher
 
 from fpt_ros.bags.reader import info, read_run
@@ -59,23 +63,32 @@ def folders_of(process):
 
 
 def test_a_node_and_the_recorder_at_once(tmp_path):
-    """A change of parameters in flight before it is in force afterwards."""
-    process = start_fpt("run", "tora", "--duration", 5, "--record", tmp_path / "bag", "--json")
-    with watcher() as graph:
-        graph.wait_for_stamp(0.05)
+    """A change of parameters in flight before it is in force afterwards.
+
+    A stranger, whose latched messages come to who is started again, is none of the run's own.
+    """
+    process = start_fpt("run", "tora", "--duration", 2, "--record", tmp_path / "bag", "--json")
+    with watcher() as graph, ExitStack() as later:
+        assert graph.call(Trigger, "/plant_simulator/pause", Trigger.Request()).success
+        graph.wait_for_stamp(0.0)
+        somebody = later.enter_context(stranger(HEARD))
         (folder,) = folders_of(process)
         assert graph.set_parameter("fpt_deformer", "A", -0.2) == (True, "")
-        graph.wait_for_next()
+        somebody.match(HEARD)
+        for topic in HEARD:
+            for data in kinds(topic, 10**9).values():
+                somebody.say(topic, data)
+        assert graph.call(Trigger, "/plant_simulator/resume", Trigger.Request()).success
         for name in ("fpt_deformer", "recorder"):
             node_of(process, name).kill()
-    with watcher() as graph:  # who was there before goes on asking the killed one for a while
-        graph.wait_for_next()
-        assert graph.get_parameter("fpt_deformer", "A") == -0.2
+        with watcher() as another:  # who was there before may go on asking the killed one
+            another.wait_for_next()
+            assert another.get_parameter("fpt_deformer", "A") == -0.2
     result, stderr = outcome(process)
     assert result["restarts"] == 2
     assert "the node fpt_deformer was killed by SIGKILL: started again" in stderr
     run = is_undisturbed(tmp_path / "bag", result)
-    assert result["cycles"] == 5000
+    assert result["cycles"] == 2000
     (change,) = run.changes
     assert (change.node, change.values) == ("fpt_deformer", {"A": -0.2})
     assert not folder.exists()
