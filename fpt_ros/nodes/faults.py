@@ -41,6 +41,19 @@ class Victim:
                         found[word.decode().removeprefix(PREFIX)] = int(status.parent.name)
         return found
 
+    def doing(self) -> list[str]:
+        """What the threads of each node wait for in the kernel: where one hangs, it is told."""
+        told = []
+        for name, process in sorted(self.nodes().items()):
+            threads = []
+            for thread in Path(f"/proc/{process}/task").glob("*"):
+                with suppress(OSError):
+                    state = (thread / "stat").read_text().rpartition(")")[2].split()[0]
+                    where = (thread / "wchan").read_text() or "running"
+                    threads.append(f"{(thread / 'comm').read_text().strip()} {state} {where}")
+            told.append(f"{name}: {'; '.join(threads)}")
+        return told
+
     def kill(self, count: int = 1) -> str:
         """Kill -9 of some nodes at once; which ones."""
         nodes = self.nodes()

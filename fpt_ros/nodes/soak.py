@@ -147,6 +147,8 @@ def _disturb(
             about, good = str(error), process.poll() == 0  # there was nobody any more to ask
         tally.survived[fault] += good
         if not good:
+            for line in victim.doing():
+                tell(line)
             tally.problems.append(f"{fault} {about}, at t = {before / 1e9:g} s")
         tell(f"t = {before / 1e9:.3f} s: {fault} {about}{'' if good else ': NOT SURVIVED'}")
 
