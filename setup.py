@@ -118,6 +118,7 @@ setup(
         ],
         "fpt_ros.plants": [
             "acrobot = fpt_ros.plants.double_pendulum:ACROBOT",
+            "affine_map = fpt_ros.plants.affine_map:PLANT",
             "cart_beam_hamper = fpt_ros.plants.cart_beam_hamper:PLANT",
             "coupled_masses = fpt_ros.plants.coupled_masses:PLANT",
             "double_pendulum = fpt_ros.plants.double_pendulum:DOUBLE_PENDULUM",
@@ -137,6 +138,7 @@ setup(
         ],
         "fpt_ros.models": [
             "acrobot = fpt_ros.plants.double_pendulum:ACROBOT_MODEL",
+            "affine_map = fpt_ros.plants.affine_map:MODEL",
             "cart_beam_hamper = fpt_ros.plants.cart_beam_hamper:MODEL",
             "coupled_masses = fpt_ros.plants.coupled_masses:MODEL",
             "double_pendulum = fpt_ros.plants.double_pendulum:MODEL",

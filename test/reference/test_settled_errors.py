@@ -25,7 +25,7 @@ ELSEWHERE = {
 }  # fmt: skip
 """Not of the thesis: their figures stand in tests of their own."""
 
-WITHOUT = {"siso_affine", "mimo_affine", "noisy_tora"} | ELSEWHERE
+WITHOUT = {"siso_affine", "mimo_affine", "affine_map", "noisy_tora"} | ELSEWHERE
 """Bare iterations have no tracking, and the chapter of the noisy loop gives bounds."""
 
 
