@@ -131,6 +131,7 @@ setup(
             "pendubot = fpt_ros.plants.double_pendulum:PENDUBOT",
             "siso_affine = fpt_ros.plants.siso_affine:PLANT",
             "spherical_pendulum = fpt_ros.plants.spherical_pendulum:PLANT",
+            "stimulated_neuron = fpt_ros.plants.stimulated_neuron:PLANT",
             "swing = fpt_ros.plants.swing:PLANT",
             "tora = fpt_ros.plants.tora:PLANT",
             "van_der_pol = fpt_ros.plants.van_der_pol:PLANT",
@@ -158,6 +159,7 @@ setup(
             "spherical_affine = fpt_ros.plants.spherical_pendulum:AFFINE_MODEL",
             "spherical_fully_fuzzy = fpt_ros.plants.spherical_pendulum:FULLY_FUZZY",
             "spherical_fuzzy_sin = fpt_ros.plants.spherical_pendulum:FUZZY_SIN",
+            "stimulated_neuron = fpt_ros.plants.stimulated_neuron:MODEL",
             "swing = fpt_ros.plants.swing:MODEL",
             "tora = fpt_ros.plants.tora:MODEL",
             "van_der_pol = fpt_ros.plants.van_der_pol:MODEL",
@@ -177,6 +179,7 @@ setup(
             "sine = fpt_ros.trajectories.sine:SINE",
             "spline = fpt_ros.trajectories.spline:SPLINE",
             "step = fpt_ros.trajectories.step:STEP",
+            "stimulated_neuron = fpt_ros.trajectories.stimulated_neuron:STIMULATED_NEURON",
             "waypoints = fpt_ros.trajectories.waypoints:WAYPOINTS",
         ],
         "fpt_ros.relaxations": [

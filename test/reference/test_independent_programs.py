@@ -97,6 +97,7 @@ PROGRAMS = (
     "kapitza",
     "spherical_pendulum",
     "swing",
+    "synchronised_neurons",
     "tora_auto",
     "vdp_aidc",
     "vdp_modified",
