@@ -1,4 +1,4 @@
-"""Two neurons under electrical stimulation a second time: the chaotic drive first, then the loop."""
+"""Two neurons under electrical stimulation again: first the chaotic drive, then the loop."""
 
 from __future__ import annotations
 

@@ -94,6 +94,8 @@ PROGRAMS = (
     "cart_beam_hamper",
     "coupled_masses",
     "fitzhugh_nagumo",
+    "freeway",
+    "hypnosis",
     "kapitza",
     "spherical_pendulum",
     "swing",

@@ -83,9 +83,7 @@ CLAIMS = (
             Picture(
                 "",
                 "Jordan block of four, and complex eigenvalues",
-                draw.iterations(
-                    _key("Jordan block of four", 0.9), _key("complex", 0.5), first=60
-                ),
+                draw.iterations(_key("Jordan block of four", 0.9), _key("complex", 0.5), first=60),
                 "The block's error grows by orders of magnitude before it vanishes.",
             ),
         ),
