@@ -2,11 +2,11 @@
 
 from fpt_ros.cycle.denoiser import Denoiser
 from fpt_ros.cycle.parameter_tuner import ParameterTuner
-from fpt_ros.cycle.trajectory_generator import TrajectoryGenerator
 from fpt_ros.nodes.fpt_deformer import DeformerNode
 from fpt_ros.nodes.plant_node import PlantNode
 from fpt_ros.nodes.process import run_process
 from fpt_ros.nodes.stage_node import StageNode
+from fpt_ros.nodes.trajectory_generator import TrajectoryNode
 
 
 def main() -> None:
@@ -14,7 +14,7 @@ def main() -> None:
     factories = [
         lambda: DeformerNode(reports=False),
         lambda: StageNode(ParameterTuner),
-        lambda: StageNode(TrajectoryGenerator),
+        TrajectoryNode,
         lambda: StageNode(Denoiser),
         PlantNode,
     ]

@@ -44,7 +44,9 @@ def _setup(name: str, part: float) -> Setup:
 
 
 def _converges(runs: Runs) -> Verdict:
-    rows, held, grown = [], [], {}
+    rows: list[tuple[str, ...]] = []
+    held: list[bool] = []
+    grown: dict[str, float | str | None] = {}
     for name in CASES:
         for part in PARTS:
             run = runs[_key(name, part)]
@@ -53,7 +55,7 @@ def _converges(runs: Runs) -> Verdict:
             held.append(converged == (part < 1.0))
             growth = float(np.max(h) / h[0])
             if converged:
-                grown[name] = max(growth, grown.get(name, 0.0))
+                grown[name] = max(growth, float(grown.get(name) or 0.0))
             rows.append(
                 (
                     name,
