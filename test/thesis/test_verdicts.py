@@ -24,6 +24,15 @@ from fpt_ros.thesis.setup import Setup
             },
         ),
         (
+            "3.2.1d",
+            YES,
+            {  # the powers of I + mu M themselves, and 1.5 % that the sigmoid is not straight
+                "largest ||h|| over the first one, Jordan block of four": pytest.approx(
+                    2157.4142, rel=0.02
+                )
+            },
+        ),
+        (
             "4.3.4a",
             YES,
             {"largest difference from sin over [0, pi]": pytest.approx(0.0739, abs=1e-4)},
