@@ -31,7 +31,7 @@ class LiveMotion:
         self._node = node
         values = node.stage.values
         self._topic = str(values["topic"])
-        self._number = int(values[NUMBER])
+        self._number = int(node.get_parameter(NUMBER).value)  # what is pending too
         self._heard_at = -1
         self._silent = False
         newest = QoSProfile(depth=1, reliability=ReliabilityPolicy.BEST_EFFORT)
