@@ -11,22 +11,32 @@ In a short record noise that would be nearly half of the variance cannot be told
 rough: whatever is taken away may be the signal.
 """
 
+import math
+
 import numpy as np
-from scipy.ndimage import binary_dilation, gaussian_filter1d
+from scipy.ndimage import binary_dilation, binary_opening, gaussian_filter1d
 
 from fpt_ros.denoising.offline import Mask, Signal
-from fpt_ros.denoising.offline.library import Judge, Member
+from fpt_ros.denoising.offline.library import TONES, Judge, Member
 from fpt_ros.denoising.offline.process_member import LOUDEST
-from fpt_ros.denoising.offline.spectral_floor import level
+from fpt_ros.denoising.offline.spectral_floor import flatness, level
 
-IN_A_ROW = 2.6
-"""Sum of the probabilities of three impulses in a row that is a burst."""
+LIKELY = 0.86
+"""Probability above which a sample of a run is an impulse."""
+CHANCE = 0.01
+"""Runs, and densities, that impulses on their own would have in this share of records, are bursts.
+A heavy tail is many impulses: of 15 %, three in a row are nothing."""
+LEAST_RUN = 3
 REACH = 8
 """Samples around a burst, and standard deviation of the window of the density of impulses."""
 DENSE, THIN = 0.2, 0.1
 """Density that is a burst, and down to which a burst goes."""
+SIGMAS = 4.0
+"""Standard deviations above the typical density that is a burst."""
 WHITE = 0.85
-"""Least level of a residual, in units of its standard deviation, that is white."""
+"""Least level of what tones leave, in units of its standard deviation, that is white."""
+FLAT = 0.475
+"""Least flatness of a residual that is noise: that of white noise is 0.58 +- 0.02."""
 SHORT = 128
 NOISY = 0.4
 """Share of the variance above which the noise of a short record is doubted."""
@@ -38,13 +48,20 @@ def bursts(impulse: Signal) -> Mask:
     Args:
         impulse: probability that a sample is one, shape (n,).
     """
-    found = np.zeros(len(impulse), dtype=bool)
-    found[1:-1] = impulse[:-2] + impulse[1:-1] + impulse[2:] > IN_A_ROW
+    n = len(impulse)
+    density = gaussian_filter1d(impulse, REACH, mode="reflect")
+    typical = float(np.median(density))
+    run = LEAST_RUN
+    while n * typical**run > CHANCE:
+        run += 1
+    found = binary_opening(impulse > LIKELY, np.ones(run))
     if found.any():
         found = binary_dilation(found, iterations=REACH)
-    density = gaussian_filter1d(impulse, REACH, mode="reflect")
-    if density.max() > DENSE:
-        found |= density > THIN
+    # a Gaussian window is as wide as 2 sqrt(pi) standard deviations of equal weights
+    chance = math.sqrt(typical * (1.0 - typical) / (2.0 * math.sqrt(math.pi) * REACH))
+    dense = max(DENSE, typical + SIGMAS * chance)
+    if density.max() > dense:
+        found |= density > max(THIN, 0.5 * (typical + dense))
     return found
 
 
@@ -62,7 +79,9 @@ def leaves_noise(y: Signal, present: Mask, judge: Judge, member: Member) -> bool
         return True
     residual = y - member.estimate
     noise = judge.noise.inlier(residual, present) * residual / judge.noise.sigma
-    return level(noise, present) > WHITE * float(np.std(noise[present]))
+    if member.name == TONES and level(noise, present) < WHITE * float(np.std(noise[present])):
+        return False
+    return flatness(noise) > FLAT
 
 
 def hardly_told(y: Signal, present: Mask, judge: Judge, estimate: Signal) -> bool:
