@@ -1,11 +1,12 @@
 """Where ``auto`` does not believe its own best model: there the record stays as it is.
 
 A model that does not fit the signal explains the misfit by impulses, and so can win against the
-record as it is. But impulses come alone: of 208 records of 28 classes, none that was denoised well
-had three impulses in a row, or a fifth of all samples around one place.
+record as it is. But impulses come alone: three in a row, or a fifth of all samples around one
+place, are a signal, unless the noise has so heavy a tail that chance makes them.
 
-Tones leave white noise, or they are not the signal: few of them explain a chirp, or a rough record,
-better than none, and take the rest for noise.
+What a model leaves is noise, or the model is not believed, whatever it is of: one frequency at
+a time is none. So a few tones do not win against a chirp, nor stairs against a fast oscillation.
+Where little is taken away nothing is asked.
 
 In a short record noise that would be nearly half of the variance cannot be told from a signal as
 rough: whatever is taken away may be the signal.
@@ -18,6 +19,7 @@ from scipy.ndimage import binary_dilation, binary_opening, gaussian_filter1d
 
 from fpt_ros.denoising.offline import Mask, Signal
 from fpt_ros.denoising.offline.library import TONES, Judge, Member
+from fpt_ros.denoising.offline.mixture import MOST_SHARE
 from fpt_ros.denoising.offline.process_member import LOUDEST
 from fpt_ros.denoising.offline.spectral_floor import flatness, level
 
@@ -50,7 +52,7 @@ def bursts(impulse: Signal) -> Mask:
     """
     n = len(impulse)
     density = gaussian_filter1d(impulse, REACH, mode="reflect")
-    typical = float(np.median(density))
+    typical = min(float(np.median(density)), MOST_SHARE)
     run = LEAST_RUN
     while n * typical**run > CHANCE:
         run += 1
@@ -62,7 +64,7 @@ def bursts(impulse: Signal) -> Mask:
     dense = max(DENSE, typical + SIGMAS * chance)
     if density.max() > dense:
         found |= density > max(THIN, 0.5 * (typical + dense))
-    return found
+    return np.asarray(found)
 
 
 def _taken(y: Signal, present: Mask, judge: Judge, estimate: Signal) -> float:
@@ -74,7 +76,7 @@ def _taken(y: Signal, present: Mask, judge: Judge, estimate: Signal) -> float:
 
 
 def leaves_noise(y: Signal, present: Mask, judge: Judge, member: Member) -> bool:
-    """Whether the residual is small or, without impulses and at one level, white."""
+    """Whether the residual is small or, without impulses and at one level, white in each frame."""
     if _taken(y, present, judge, member.estimate) < LOUDEST:
         return True
     residual = y - member.estimate

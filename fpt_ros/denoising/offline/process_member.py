@@ -23,7 +23,7 @@ IDLE, EVEN = 0.3, 6.0
 """Where white noise leaves so many degrees of freedom per sample to the signal, the record hardly
 changes; then coloured noise is taken if it is as good to within this BIC."""
 STRONG = 1.4
-"""In units of the white noise beside it: weaker coloured noise has to be better than white noise."""
+"""In units of the white noise beside it: weaker coloured noise has to be better than white."""
 SLOW, ALONE = 0.75, 0.2
 """A coefficient above the one, and white noise beside above the other share of it, is a signal that
 wanders, or jumps, in white noise."""

@@ -65,8 +65,8 @@ def level(y: Signal, present: Mask | None = None) -> float:
 def flatness(noise: Signal) -> float:
     """Geometric over arithmetic mean of the power in a frame, the median of all frames.
 
-    Of white noise it is about exp(-0.577) = 0.56 (spectral flatness: Johnston, IEEE J. Sel.
-    Areas Commun. 6, 1988); of one frequency at a time, as of a chirp over the whole band, it is far less
+    Of white noise it is about exp(-0.577) = 0.56 (spectral flatness: Johnston, IEEE J. Sel. Areas
+    Commun. 6, 1988); of one frequency at a time, as of a chirp over the whole band, it is far less
     in each frame though the whole has a flat spectrum.
     """
     window, step = _frames(len(noise))

@@ -31,7 +31,7 @@ acceleration is several times as great."""
 HEADER, MEMBER = 4, 10
 REST, LEVEL, KEPT, PRICE, AGAINST, BANDWIDTH = range(4, MEMBER)
 # places in the memory of a coordinate: shared ones, then vectors over the members
-LAST, BEFORE, LSB, SIGMA, PEAK, HELD, GAP, COUNT, BEST, SPEED, SHARED = range(11)
+LAST, BEFORE, LSB, SIGMA, PEAK, HELD, GAP, COUNT, BEST, SPEED, UNEVEN, SHARED = range(12)
 EACH = 8
 
 

@@ -3,7 +3,8 @@
 import numpy as np
 
 from fpt_ros.denoising.offline import denoise
-from fpt_ros.denoising.offline.doubts import bursts
+from fpt_ros.denoising.offline.doubts import FLAT, bursts
+from fpt_ros.denoising.offline.spectral_floor import flatness
 from fpt_ros.denoising.signals import white_noise
 
 
@@ -22,6 +23,27 @@ def test_three_in_a_row_are_a_signal_as_is_what_is_dense():
     assert found[305:335].all()
     assert not found[:80].any()
     assert not found[150:250].any()
+
+
+def test_many_impulses_of_a_heavy_tail_are_no_bursts():
+    rng = np.random.default_rng(2)
+    heavy = (rng.random(2000) < 0.12) * 1.0
+    assert np.any(heavy[:-2] + heavy[1:-1] + heavy[2:] == 3.0)
+    assert not bursts(heavy).any()
+    clean = np.repeat([0.0, 1.0, 0.0], 170)
+    y = clean + 0.16 * rng.laplace(size=510)
+    assert np.sqrt(np.mean((denoise(y).estimate - clean) ** 2)) < 0.1
+
+
+def test_what_is_left_of_fast_oscillations_is_no_noise():
+    t = np.arange(512) / 512
+    chirp = np.sin(np.pi * t * 512 * t)  # up to half the rate and down again
+    assert flatness(chirp) < FLAT < flatness(white_noise(512, 1.0, 1))
+    # a tone beside it is not all of the signal
+    clean = np.sin(0.6 * np.arange(512)) + chirp
+    y = clean + white_noise(512, 0.1, 2)
+    error = np.sqrt(np.mean((denoise(y).estimate - clean) ** 2))
+    assert error < 1.1 * np.sqrt(np.mean((y - clean) ** 2))
 
 
 def test_a_chirp_up_to_half_the_rate_is_not_cut_where_it_is_fast():
