@@ -73,7 +73,8 @@ def part(
     varies = np.ndim(beginning.begin.profile) > 0
     if varies:
         general = [*general, special[0]]
-    estimate, weights, inner = believed(y, present, judge, general, special, varies)
+    coarse = beginning.step if beginning.begin.sigma < beginning.step else 0.0
+    estimate, weights, inner = believed(y, present, judge, general, special, varies, coarse)
     return Part(
         np.asarray(estimate + offset),
         beginning,
@@ -90,6 +91,7 @@ def believed(
     general: Sequence[library.Member],
     special: Sequence[library.Member],
     varies: bool,
+    coarse: float = 0.0,
 ) -> tuple[Signal, dict[str, float], dict[str, float]]:
     """The mean of the members that are not doubted (:mod:`doubts`), and the weights of both means.
 
@@ -99,6 +101,7 @@ def believed(
         judge: of the members.
         general, special: the members; the record as it is is among the special ones.
         varies: whether the noise varies along the record.
+        coarse: step of rounding, unit of y, where other noise is below it; else 0.
     """
     doubt = library.DOUBT if varies else 1.0
     last = [judge.mean("general", general, doubt * library.WIDE), *special]
@@ -113,6 +116,8 @@ def believed(
     if not varies:  # where the noise changes, its profile is late, and noise looks like a burst
         impulses = present - judge.noise.inlier(y - estimate, present)
         estimate = np.where(doubts.bursts(impulses), y, estimate)
+    if coarse > 0.0:
+        estimate = np.where(present & doubts.no_rounding(y, estimate, coarse), y, estimate)
     # not finite: a record of two levels, with no noise to weigh by
     if stays or not np.isfinite(estimate).all():
         estimate, weight = y, np.array([m.name == library.UNCHANGED for m in last]) * 1.0

@@ -8,6 +8,9 @@ What a model leaves is noise, or the model is not believed, whatever it is of: o
 a time is none. So a few tones do not win against a chirp, nor stairs against a fast oscillation.
 Where little is taken away nothing is asked.
 
+A sample that is rounded, and has no other noise, is within a step of the signal, or an impulse:
+that sticks out of both neighbours. What a model misses else is a jump, or a fast oscillation.
+
 In a short record noise that would be nearly half of the variance cannot be told from a signal as
 rough: whatever is taken away may be the signal.
 """
@@ -35,6 +38,11 @@ DENSE, THIN = 0.2, 0.1
 """Density that is a burst, and down to which a burst goes."""
 SIGMAS = 4.0
 """Standard deviations above the typical density that is a burst."""
+FAR, STICKS_OUT = 1.5, 0.7
+"""Steps of rounding that an estimate is from its sample at most, but for an impulse; and the share
+of its residual by which an impulse sticks out of both neighbours."""
+PAIRS = 0.1
+"""Pairs of impulses that chance makes in a record, from which on there are some."""
 WHITE = 0.85
 """Least level of what tones leave, in units of its standard deviation, that is white."""
 FLAT = 0.475
@@ -65,6 +73,28 @@ def bursts(impulse: Signal) -> Mask:
     if density.max() > dense:
         found |= density > max(THIN, 0.5 * (typical + dense))
     return np.asarray(found)
+
+
+def no_rounding(y: Signal, estimate: Signal, step: float) -> Mask:
+    """True where rounding alone does not explain the residual, and no impulse does, shape (n,).
+
+    Args:
+        y: samples rounded to multiples of ``step``, with noise below that.
+        estimate: of the signal.
+        step: of rounding, unit of y.
+    """
+    residual = y - estimate
+    far = np.abs(residual) > FAR * step
+    least = STICKS_OUT * np.abs(residual)
+    steps = np.diff(y)
+    sign = np.sign(residual)
+    left, right = np.zeros(len(y), dtype=bool), np.zeros(len(y), dtype=bool)
+    left[1:] = sign[1:] * steps > least[1:]
+    right[:-1] = -sign[:-1] * steps > least[:-1]
+    if len(y) * float(far.mean()) ** 2 > PAIRS:  # neighbours that are impulses say nothing
+        left[1:] |= far[:-1]
+        right[:-1] |= far[1:]
+    return np.asarray(far & ~(left & right))
 
 
 def _taken(y: Signal, present: Mask, judge: Judge, estimate: Signal) -> float:

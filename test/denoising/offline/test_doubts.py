@@ -3,7 +3,7 @@
 import numpy as np
 
 from fpt_ros.denoising.offline import denoise
-from fpt_ros.denoising.offline.doubts import FLAT, bursts
+from fpt_ros.denoising.offline.doubts import FLAT, bursts, no_rounding
 from fpt_ros.denoising.offline.spectral_floor import flatness
 from fpt_ros.denoising.signals import white_noise
 
@@ -52,6 +52,21 @@ def test_a_chirp_up_to_half_the_rate_is_not_cut_where_it_is_fast():
     y = np.round(clean / 0.12) * 0.12
     error = np.sqrt(np.mean((denoise(y).estimate - clean) ** 2))
     assert error < np.sqrt(np.mean((y - clean) ** 2))
+
+
+def test_what_rounding_and_impulses_do_not_explain():
+    estimate = np.zeros(40)
+    y = np.zeros(40)
+    y[10] = 5.0  # an impulse
+    y[20:22] = 4.0  # two in a row: chance, if there are many
+    y[30] = 1.0  # rounding
+    y[39] = 5.0  # at the end nothing tells it from a jump
+    np.testing.assert_array_equal(
+        np.flatnonzero(no_rounding(y, estimate, 1.0)),
+        [39],
+    )
+    long = np.concatenate((y, np.zeros(4000)))
+    np.testing.assert_array_equal(np.flatnonzero(no_rounding(long, np.zeros(4040), 1.0)), [20, 21])
 
 
 def test_a_short_record_that_is_mostly_noise_stays():
