@@ -9,7 +9,7 @@ a time is none. So a few tones do not win against a chirp, nor stairs against a 
 Where little is taken away nothing is asked.
 
 A sample that is rounded, and has no other noise, is within a step of the signal, or an impulse:
-that sticks out of both neighbours. What a model misses else is a jump, or a fast oscillation.
+that sticks out of a calm neighbourhood. What a model misses else is a jump, or fast oscillation.
 
 In a short record noise that would be nearly half of the variance cannot be told from a signal as
 rough: whatever is taken away may be the signal.
@@ -18,7 +18,7 @@ rough: whatever is taken away may be the signal.
 import math
 
 import numpy as np
-from scipy.ndimage import binary_dilation, binary_opening, gaussian_filter1d
+from scipy.ndimage import binary_dilation, binary_opening, gaussian_filter1d, median_filter
 
 from fpt_ros.denoising.offline import Mask, Signal
 from fpt_ros.denoising.offline.library import TONES, Judge, Member
@@ -41,8 +41,9 @@ SIGMAS = 4.0
 FAR, STICKS_OUT = 1.5, 0.7
 """Steps of rounding that an estimate is from its sample at most, but for an impulse; and the share
 of its residual by which an impulse sticks out of both neighbours."""
-PAIRS = 0.1
-"""Pairs of impulses that chance makes in a record, from which on there are some."""
+LIVELY = 0.25
+"""Share of a residual by which the estimate moves from sample to sample, from which on it may be
+the signal."""
 WHITE = 0.85
 """Least level of what tones leave, in units of its standard deviation, that is white."""
 FLAT = 0.475
@@ -89,12 +90,11 @@ def no_rounding(y: Signal, estimate: Signal, step: float) -> Mask:
     steps = np.diff(y)
     sign = np.sign(residual)
     left, right = np.zeros(len(y), dtype=bool), np.zeros(len(y), dtype=bool)
-    left[1:] = sign[1:] * steps > least[1:]
-    right[:-1] = -sign[:-1] * steps > least[:-1]
-    if len(y) * float(far.mean()) ** 2 > PAIRS:  # neighbours that are impulses say nothing
-        left[1:] |= far[:-1]
-        right[:-1] |= far[1:]
-    return np.asarray(far & ~(left & right))
+    left[1:] = (sign[1:] * steps > least[1:]) | far[:-1]  # far neighbours say nothing
+    right[:-1] = (-sign[:-1] * steps > least[:-1]) | far[1:]
+    moves = np.abs(np.diff(estimate, append=estimate[-1]))
+    calm = median_filter(moves, 2 * REACH + 1, mode="nearest") < LIVELY * np.abs(residual)
+    return np.asarray(far & ~(left & right & calm))
 
 
 def _taken(y: Signal, present: Mask, judge: Judge, estimate: Signal) -> float:
