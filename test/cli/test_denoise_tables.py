@@ -11,8 +11,10 @@ import numpy as np
 import pytest
 from command import BIN, TIMEOUT
 from tables.kinds import LOST, NAMELESS, PLAIN, ROWS, WHOLE, N, T, Y, text, with_line
+from tables.other_kinds import SAME, SOUND, sound
 
 from fpt_ros.cli.main import _main
+from fpt_ros.denoising.offline import denoise
 
 SAVGOL = ("--method", "savgol")
 
@@ -51,6 +53,24 @@ def test_the_same_estimate_of_all_kinds(run, plain, kind):
     found = json.loads(run({**WHOLE, **NAMELESS}[kind], "--json").out)
     assert (found["samples"], found["healed"]) == (N, 0)
     assert output("s-denoised.csv")["estimate"] == plain
+
+
+@pytest.mark.parametrize("name", SAME)
+def test_the_same_estimate_of_other_files(run, plain, name):
+    column = "f1" if name == "fields.npy" else "y"  # a dtype without names
+    found = json.loads(
+        run(SAME[name], "--column", column, "--out", "o.csv", "--json", name=name).out
+    )
+    assert (found["samples"], found["healed"]) == (N, 0)
+    estimate = np.array(output("o.csv")["estimate"], dtype=float)
+    np.testing.assert_allclose(estimate, np.array(plain, dtype=float), rtol=1e-12)
+
+
+def test_a_sound(run):
+    found = json.loads(run(sound(), "--out", "o.csv", "--json", name="s.wav").out)
+    assert (found["samples"], found["healed"]) == (N, 0)
+    y = np.array(output("o.csv")["estimate"], dtype=float)
+    np.testing.assert_allclose(y, denoise(SOUND, "savgol").estimate, rtol=1e-9)
 
 
 @pytest.mark.parametrize("kind", LOST)

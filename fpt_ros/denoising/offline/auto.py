@@ -6,6 +6,7 @@ are done in windows that overlap (:mod:`windows`). Where the steps of time diffe
 processes know what to do, and they are all there is.
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -70,34 +71,59 @@ def part(
         y, present, beginning.begin, beginning.process.fit, white, choice
     )
     varies = np.ndim(beginning.begin.profile) > 0
-    doubt = library.DOUBT if varies else 1.0
     if varies:
         general = [*general, special[0]]
-    last = [judge.mean("general", general, doubt * library.WIDE), *special]
-    weight = judge.weights(last, doubt * library.SHARP)
-    favourite = last[int(np.argmax(weight))]
-    if favourite.name == library.TONES and not doubts.leaves_noise(y, present, judge, favourite):
-        last = [member for member in last if member.name != library.TONES]
-        weight = judge.weights(last, doubt * library.SHARP)
-    inner = judge.weights(general, doubt * library.WIDE)
-    estimate = weight @ np.array([member.estimate for member in last])
-    if len(y) < doubts.SHORT and doubts.hardly_told(y, present, judge, estimate):
-        weight, estimate = (
-            np.array([member.name == library.UNCHANGED for member in last]) * 1.0,
-            y,
-        )
-    if not varies:  # where the noise changes, its profile is late, and noise looks like a burst
-        impulses = present - judge.noise.inlier(y - estimate, present)
-        estimate = np.where(doubts.bursts(impulses), y, estimate)
-    if not np.isfinite(estimate).all():  # a record of two levels, with no noise to weigh by
-        weight, estimate = (
-            np.array([member.name == library.UNCHANGED for member in last]) * 1.0,
-            y,
-        )
+    coarse = beginning.step if beginning.begin.sigma < beginning.step else 0.0
+    estimate, weights, inner = believed(y, present, judge, general, special, varies, coarse)
     return Part(
         np.asarray(estimate + offset),
         beginning,
         judge.noise.p,
+        weights,
+        inner,
+    )
+
+
+def believed(
+    y: Signal,
+    present: Mask,
+    judge: library.Judge,
+    general: Sequence[library.Member],
+    special: Sequence[library.Member],
+    varies: bool,
+    coarse: float = 0.0,
+) -> tuple[Signal, dict[str, float], dict[str, float]]:
+    """The mean of the members that are not doubted (:mod:`doubts`), and the weights of both means.
+
+    Args:
+        y: samples, shape (n,).
+        present: False where a sample is missing.
+        judge: of the members.
+        general, special: the members; the record as it is is among the special ones.
+        varies: whether the noise varies along the record.
+        coarse: step of rounding, unit of y, where other noise is below it; else 0.
+    """
+    doubt = library.DOUBT if varies else 1.0
+    last = [judge.mean("general", general, doubt * library.WIDE), *special]
+    weight = judge.weights(last, doubt * library.SHARP)
+    while (favourite := last[int(np.argmax(weight))]).name != library.UNCHANGED:
+        if doubts.leaves_noise(y, present, judge, favourite):
+            break
+        last = [member for member in last if member is not favourite]
+        weight = judge.weights(last, doubt * library.SHARP)
+    estimate = weight @ np.array([member.estimate for member in last])
+    stays = len(y) < doubts.SHORT and doubts.hardly_told(y, present, judge, estimate)
+    if not varies:  # where the noise changes, its profile is late, and noise looks like a burst
+        impulses = present - judge.noise.inlier(y - estimate, present)
+        estimate = np.where(doubts.bursts(impulses), y, estimate)
+    if coarse > 0.0:
+        estimate = np.where(present & doubts.no_rounding(y, estimate, coarse), y, estimate)
+    # not finite: a record of two levels, with no noise to weigh by
+    if stays or not np.isfinite(estimate).all():
+        estimate, weight = y, np.array([m.name == library.UNCHANGED for m in last]) * 1.0
+    inner = judge.weights(general, doubt * library.WIDE)
+    return (
+        estimate,
         {m.name: float(w) for m, w in zip(last, weight, strict=True)},
         {m.name: float(w) for m, w in zip(general, inner, strict=True)},
     )

@@ -1,32 +1,53 @@
 """Where ``auto`` does not believe its own best model: there the record stays as it is.
 
 A model that does not fit the signal explains the misfit by impulses, and so can win against the
-record as it is. But impulses come alone: of 208 records of 28 classes, none that was denoised well
-had three impulses in a row, or a fifth of all samples around one place.
+record as it is. But impulses come alone: three in a row, or a fifth of all samples around one
+place, are a signal, unless the noise has so heavy a tail that chance makes them.
 
-Tones leave white noise, or they are not the signal: few of them explain a chirp, or a rough record,
-better than none, and take the rest for noise.
+What a model leaves is noise, or the model is not believed, whatever it is of: one frequency at
+a time is none. So a few tones do not win against a chirp, nor stairs against a fast oscillation.
+Where little is taken away nothing is asked.
+
+A sample that is rounded, and has no other noise, is within a step of the signal, or an impulse:
+that sticks out of a calm neighbourhood. What a model misses else is a jump, or fast oscillation.
 
 In a short record noise that would be nearly half of the variance cannot be told from a signal as
 rough: whatever is taken away may be the signal.
 """
 
+import math
+
 import numpy as np
-from scipy.ndimage import binary_dilation, gaussian_filter1d
+from scipy.ndimage import binary_dilation, binary_opening, gaussian_filter1d, median_filter
 
 from fpt_ros.denoising.offline import Mask, Signal
-from fpt_ros.denoising.offline.library import Judge, Member
+from fpt_ros.denoising.offline.library import TONES, Judge, Member
+from fpt_ros.denoising.offline.mixture import MOST_SHARE
 from fpt_ros.denoising.offline.process_member import LOUDEST
-from fpt_ros.denoising.offline.spectral_floor import level
+from fpt_ros.denoising.offline.spectral_floor import flatness, level
 
-IN_A_ROW = 2.6
-"""Sum of the probabilities of three impulses in a row that is a burst."""
+LIKELY = 0.86
+"""Probability above which a sample of a run is an impulse."""
+CHANCE = 0.01
+"""Runs, and densities, that impulses on their own would have in this share of records, are bursts.
+A heavy tail is many impulses: of 15 %, three in a row are nothing."""
+LEAST_RUN = 3
 REACH = 8
 """Samples around a burst, and standard deviation of the window of the density of impulses."""
 DENSE, THIN = 0.2, 0.1
 """Density that is a burst, and down to which a burst goes."""
+SIGMAS = 4.0
+"""Standard deviations above the typical density that is a burst."""
+FAR, STICKS_OUT = 1.5, 0.7
+"""Steps of rounding that an estimate is from its sample at most, but for an impulse; and the share
+of its residual by which an impulse sticks out of both neighbours."""
+LIVELY = 0.25
+"""Share of a residual by which the estimate moves from sample to sample, from which on it may be
+the signal."""
 WHITE = 0.85
-"""Least level of a residual, in units of its standard deviation, that is white."""
+"""Least level of what tones leave, in units of its standard deviation, that is white."""
+FLAT = 0.475
+"""Least flatness of a residual that is noise: that of white noise is 0.58 +- 0.02."""
 SHORT = 128
 NOISY = 0.4
 """Share of the variance above which the noise of a short record is doubted."""
@@ -38,14 +59,42 @@ def bursts(impulse: Signal) -> Mask:
     Args:
         impulse: probability that a sample is one, shape (n,).
     """
-    found = np.zeros(len(impulse), dtype=bool)
-    found[1:-1] = impulse[:-2] + impulse[1:-1] + impulse[2:] > IN_A_ROW
+    n = len(impulse)
+    density = gaussian_filter1d(impulse, REACH, mode="reflect")
+    typical = min(float(np.median(density)), MOST_SHARE)
+    run = LEAST_RUN
+    while n * typical**run > CHANCE:
+        run += 1
+    found = binary_opening(impulse > LIKELY, np.ones(run))
     if found.any():
         found = binary_dilation(found, iterations=REACH)
-    density = gaussian_filter1d(impulse, REACH, mode="reflect")
-    if density.max() > DENSE:
-        found |= density > THIN
-    return found
+    # a Gaussian window is as wide as 2 sqrt(pi) standard deviations of equal weights
+    chance = math.sqrt(typical * (1.0 - typical) / (2.0 * math.sqrt(math.pi) * REACH))
+    dense = max(DENSE, typical + SIGMAS * chance)
+    if density.max() > dense:
+        found |= density > max(THIN, 0.5 * (typical + dense))
+    return np.asarray(found)
+
+
+def no_rounding(y: Signal, estimate: Signal, step: float) -> Mask:
+    """True where rounding alone does not explain the residual, and no impulse does, shape (n,).
+
+    Args:
+        y: samples rounded to multiples of ``step``, with noise below that.
+        estimate: of the signal.
+        step: of rounding, unit of y.
+    """
+    residual = y - estimate
+    far = np.abs(residual) > FAR * step
+    least = STICKS_OUT * np.abs(residual)
+    steps = np.diff(y)
+    sign = np.sign(residual)
+    left, right = np.zeros(len(y), dtype=bool), np.zeros(len(y), dtype=bool)
+    left[1:] = (sign[1:] * steps > least[1:]) | far[:-1]  # far neighbours say nothing
+    right[:-1] = (-sign[:-1] * steps > least[:-1]) | far[1:]
+    moves = np.abs(np.diff(estimate, append=estimate[-1]))
+    calm = median_filter(moves, 2 * REACH + 1, mode="nearest") < LIVELY * np.abs(residual)
+    return np.asarray(far & ~(left & right & calm))
 
 
 def _taken(y: Signal, present: Mask, judge: Judge, estimate: Signal) -> float:
@@ -57,12 +106,14 @@ def _taken(y: Signal, present: Mask, judge: Judge, estimate: Signal) -> float:
 
 
 def leaves_noise(y: Signal, present: Mask, judge: Judge, member: Member) -> bool:
-    """Whether the residual is small or, without impulses and at one level, white."""
+    """Whether the residual is small or, without impulses and at one level, white in each frame."""
     if _taken(y, present, judge, member.estimate) < LOUDEST:
         return True
     residual = y - member.estimate
     noise = judge.noise.inlier(residual, present) * residual / judge.noise.sigma
-    return level(noise, present) > WHITE * float(np.std(noise[present]))
+    if member.name == TONES and level(noise, present) < WHITE * float(np.std(noise[present])):
+        return False
+    return flatness(noise) > FLAT
 
 
 def hardly_told(y: Signal, present: Mask, judge: Judge, estimate: Signal) -> bool:

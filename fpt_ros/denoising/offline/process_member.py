@@ -22,6 +22,8 @@ CLEAR = 0.0
 IDLE, EVEN = 0.3, 6.0
 """Where white noise leaves so many degrees of freedom per sample to the signal, the record hardly
 changes; then coloured noise is taken if it is as good to within this BIC."""
+STRONG = 1.4
+"""In units of the white noise beside it: weaker coloured noise has to be better than white."""
 SLOW, ALONE = 0.75, 0.2
 """A coefficient above the one, and white noise beside above the other share of it, is a signal that
 wanders, or jumps, in white noise."""
@@ -85,6 +87,8 @@ def _coloured(samples: Samples, white: Process) -> Process | None:
     if found.bic > white.bic - clear:
         return None
     coefficient, sigma = math.exp(-1.0 / found.parts[-1, 2]), float(found.parts[-1, 1])
+    if found.bic > white.bic - CLEAR and sigma < STRONG:
+        return None
     if coefficient > SLOW and ALONE * sigma < 1.0 < sigma:
         return None
     known = samples.relative < UNKNOWN

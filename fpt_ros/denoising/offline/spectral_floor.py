@@ -62,6 +62,26 @@ def level(y: Signal, present: Mask | None = None) -> float:
     return sigma if sigma < SHARE * detail else detail
 
 
+def flatness(noise: Signal) -> float:
+    """Geometric over arithmetic mean of the power in a frame, the median of all frames.
+
+    Of white noise it is about exp(-0.577) = 0.56 (spectral flatness: Johnston, IEEE J. Sel. Areas
+    Commun. 6, 1988); of one frequency at a time, as of a chirp over the whole band, it is far less
+    in each frame though the whole has a flat spectrum.
+    """
+    window, step = _frames(len(noise))
+    starts = np.arange(0, len(noise) - window + 1, step)
+    if len(starts) > LONG:
+        starts = np.linspace(0, len(noise) - window, LONG).astype(int)
+    power = _power(noise, starts, window)
+    mean = power.mean(axis=1)
+    known = mean > 0.0
+    if not known.any():
+        return 1.0
+    logs = np.log(power[known] / mean[known, None] + 1e-12).mean(axis=1)
+    return float(np.median(np.exp(logs)))
+
+
 def profile(y: Signal, present: Mask, least: float = 0.0) -> Signal:
     """How the level varies along ``y``: of geometric mean 1, shape (n,); ones where it does not.
 

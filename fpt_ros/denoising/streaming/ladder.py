@@ -12,18 +12,18 @@ from fpt_ros.laws import MutableVector, Vector, helper
 from fpt_ros.parameters import Parameter, Values, integer, number
 
 PARAMETERS = (
-    Parameter("members", "filters of the ladder", 14, minimum=2, maximum=40, live=False),
-    Parameter("slowest", "bandwidth of the slowest filter", 2.5e-3, unit="rad/sample", above=0.0),
+    Parameter("members", "filters of the ladder", 18, minimum=2, maximum=40, live=False),
+    Parameter("slowest", "bandwidth of the slowest filter", 3e-3, unit="rad/sample", above=0.0),
     Parameter("fastest", "bandwidth of the fastest filter", 3.0, unit="rad/sample", above=0.0),
     Parameter("gate", "standard deviations beyond which it may be an impulse", 5.0, above=2.0),
 )
 
 STATES = 4
-FORGOTTEN, MOST_FORGOTTEN = 0.3, 0.5
+FORGOTTEN, MOST_FORGOTTEN = 0.2, 0.5
 """Share of the evidence that a sample forgets, times the bandwidth; and at most."""
 TEMPERATURE = 3.0
 """Weights are exp(-evidence / 3), the evidence being -2 log likelihood."""
-PRIOR = 12.0
+PRIOR = 9.0
 """Evidence that a step to the faster neighbour has to bring, times 1 - K: the noise of its
 acceleration is several times as great."""
 
@@ -31,8 +31,8 @@ acceleration is several times as great."""
 HEADER, MEMBER = 4, 10
 REST, LEVEL, KEPT, PRICE, AGAINST, BANDWIDTH = range(4, MEMBER)
 # places in the memory of a coordinate: shared ones, then vectors over the members
-LAST, BEFORE, LSB, SIGMA, PEAK, HELD, GAP, COUNT, SHARED = range(9)
-EACH = 7
+LAST, BEFORE, LSB, SIGMA, PEAK, HELD, GAP, COUNT, BEST, SPEED, UNEVEN, SHARED = range(12)
+EACH = 8
 
 
 def innovation_gain(gains: NDArray[np.float64]) -> float:
@@ -65,12 +65,17 @@ def prepare(values: Values, n: int, dt: float) -> tuple[float, ...]:
         rest = 1.0 - float(g[0])
         level = 1.0 / (0.6745 * math.sqrt(innovation_gain(g)))
         kept = 1.0 - min(FORGOTTEN * float(h), MOST_FORGOTTEN)
-        constants += [*map(float, g), rest, level, kept, own - faster, PRIOR * rest, float(h)]
+        against = PRIOR * rest if h < ladder[-1] else 0.0
+        constants += [*map(float, g), rest, level, kept, own - faster, against, float(h)]
     return tuple(constants)
 
 
 def state_size(constants: Vector, n: int) -> int:
-    """Of each coordinate what is shared; by member four states, evidence, median, innovation."""
+    """Of each coordinate what is shared; by member four states, evidence, median, innovation, cost.
+
+    The evidence is that for the faster neighbour; the cost, what speaks against the member, is the
+    sum of it over all faster ones, less their prior, in units of -2 log likelihood.
+    """
     return n * (SHARED + EACH * int(constants[0]))
 
 
@@ -83,8 +88,12 @@ def start(constants: Vector, state: MutableVector, q: Vector, v: Vector) -> None
         for i in range(size):
             state[first + i] = 0.0
         state[first + LAST] = state[first + BEFORE] = q[c]
-        for m in range(members):
+        cost = 0.0
+        for m in range(members - 1, -1, -1):
+            cost -= constants[HEADER + MEMBER * m + AGAINST]
             state[first + SHARED + m] = q[c]
+            state[first + SHARED + m + 7 * members] = cost
+        state[first + BEST] = cost
 
 
 @helper

@@ -8,8 +8,8 @@ from numpy.typing import NDArray
 
 from fpt_ros.denoising.streaming.kalman_bank import steady_prediction
 from fpt_ros.denoising.streaming.ladder import (
-    AGAINST,
     BANDWIDTH,
+    BEST,
     EACH,
     GAP,
     HEADER,
@@ -28,13 +28,9 @@ LONGEST_GAP = 1000
 def weights(constants: Vector, state: Vector, c: int) -> list[float]:
     """Weight of each member in the estimates of coordinate c, the slowest first."""
     members = int(constants[0])
-    at = c * (SHARED + EACH * members) + SHARED + 4 * members
-    evidence = [0.0]
-    for m in range(members - 2, -1, -1):
-        prior = constants[HEADER + MEMBER * m + AGAINST]
-        evidence.append(evidence[-1] + state[at + m] - prior)
-    best = min(evidence)
-    found = [weight_of(each - best) for each in reversed(evidence)]
+    first = c * (SHARED + EACH * members)
+    costs = first + SHARED + 7 * members
+    found = [weight_of(state[costs + m] - state[first + BEST]) for m in range(members)]
     return [w / math.fsum(found) for w in found]
 
 

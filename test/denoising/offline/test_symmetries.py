@@ -24,10 +24,10 @@ def test_powers_of_two_scale_exactly(method):
 
 
 @pytest.mark.parametrize("method", [*METHODS, "auto"])
-def test_sign(method):
+def test_any_scale_and_sign(method):
     y = record()
     np.testing.assert_allclose(
-        -denoise(-y, method).estimate, denoise(y, method).estimate, atol=2e-2
+        denoise(-3.7e3 * y, method).estimate / -3.7e3, denoise(y, method).estimate, atol=2e-2
     )
 
 
@@ -45,6 +45,13 @@ def test_reversed_time(method):
     np.testing.assert_allclose(
         denoise(y[::-1], method).estimate[::-1], denoise(y, method).estimate, atol=1e-9
     )
+
+
+def test_auto_is_nearly_the_same_with_an_offset():
+    y = record()
+    found = denoise(y)
+    difference = denoise(y + 64.0).estimate - 64.0 - found.estimate
+    assert np.sqrt(np.mean(difference**2)) < 0.1 * found.sigma
 
 
 def test_auto_is_nearly_the_same_in_reversed_time():

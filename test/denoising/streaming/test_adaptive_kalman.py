@@ -8,10 +8,10 @@ import pytest
 from filter_runs import bang_bang, constants_of, noise, rms, run, two_sines
 
 from fpt_ros.denoising.streaming import Update
-from fpt_ros.denoising.streaming.adaptive_kalman import ADAPTIVE_KALMAN
+from fpt_ros.denoising.streaming.adaptive_kalman import ADAPTIVE_KALMAN, MOST_UNEVEN
 from fpt_ros.denoising.streaming.kalman_bank import KALMAN_BANK, steady_gains
 from fpt_ros.denoising.streaming.ladder import LSB as LSB_PLACE
-from fpt_ros.denoising.streaming.ladder import SIGMA, innovation_gain, weight_of
+from fpt_ros.denoising.streaming.ladder import SIGMA, UNEVEN, innovation_gain, weight_of
 from fpt_ros.engine import compiled
 from fpt_ros.errors import BadInput
 
@@ -66,8 +66,24 @@ def ratios(rate, sigma, motion):
 def test_it_is_near_the_best_single_filter_at_its_defaults():
     cells = itertools.product([100, 500], [1e-6, 1e-3, LSB], [two_sines, bang_bang])
     found = np.array([ratios(*cell) for cell in cells])
-    assert np.all(found < 3.0)
-    assert np.all(np.exp(np.mean(np.log(found), axis=0)) < 1.25)
+    assert np.all(found < 2.0)
+    assert np.all(np.exp(np.mean(np.log(found), axis=0)) < 1.0)
+
+
+def test_a_smooth_motion_at_a_low_rate_has_no_lsb():
+    # the least second difference of a fast motion is far above its noise
+    q = two_sines(400, 0.01)[0] + noise(400, 3, 1e-6)
+    assert ended(q, 0.01)[1][UNEVEN] > MOST_UNEVEN
+    q = np.round(q / LSB) * LSB
+    assert ended(q, 0.01)[1][UNEVEN] < 1e-3
+
+
+def test_a_motion_that_sets_in_is_no_impulse():
+    dt = 0.01
+    once = two_sines(100, dt)[0]
+    q = np.concatenate((once, np.full(200, once[-1]), once[::-1])) + noise(400, 1, 1e-6)
+    gated = filtered(ADAPTIVE_KALMAN, q, dt)
+    np.testing.assert_array_equal(gated[1:], filtered(ADAPTIVE_KALMAN, q, dt, gate=1e9)[1:])
 
 
 def test_innovation_in_white_noise():
