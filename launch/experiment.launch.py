@@ -11,6 +11,7 @@ from launch_ros.actions import Node
 
 from fpt_ros.cycle.stages import STAGES
 from fpt_ros.experiments.experiment import load
+from fpt_ros.gain.warning import known, told
 from launch import LaunchDescription
 
 
@@ -28,7 +29,8 @@ def start(context):
         LaunchConfiguration(name).perform(context)
         for name in ("experiment", "variant", "record", "namespace")
     )
-    experiment = load(experiment_name, variant).for_graph(realtime=False)
+    experiment = load(experiment_name, variant)
+    experiment = told(experiment, known(experiment)).for_graph(realtime=False)
     names = list(STAGES)
     if record:
         experiment = experiment.with_values("plant_simulator", await_recorder=True)

@@ -74,13 +74,25 @@ def gain(
         print(f"picture: {path}")
 
 
-def warn_about_gain(experiment: "Experiment") -> None:
-    """One line on standard error where the experiment's A is not one with which it contracts."""
-    from fpt_ros.gain.warning import warning
+def warn_about_gain(experiment: "Experiment") -> "Experiment":
+    """One line on standard error where the experiment's A is not one with which it contracts.
 
-    text = warning(experiment)
+    Returns:
+        The experiment, its deformer told what it has to know to judge an A in flight.
+
+    Raises:
+        BadInput: ``fpt_deformer.strict_gain``, and there is something to be said of A.
+    """
+    from fpt_ros.errors import BadInput
+    from fpt_ros.gain.warning import known, told, warning
+
+    gain = known(experiment)
+    text = warning(experiment, gain)
+    if text and experiment.nodes["fpt_deformer"]["strict_gain"]:
+        raise BadInput(f"strict_gain: {text}")
     if text:
         print(f"fpt: warning: {text}", file=sys.stderr)
+    return told(experiment, gain)
 
 
 def _draw(

@@ -1,5 +1,6 @@
 """``fpt params``: parameters of running nodes, for machines without ``ros2``."""
 
+import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -78,7 +79,7 @@ def set_(
     from fpt_ros.nodes.asking import graph
 
     with graph(namespace) as asked:
-        asked.set(node, dict(map(_change, changes)))
+        _warn(asked.set(node, dict(map(_change, changes))))
 
 
 @app.command()
@@ -173,7 +174,7 @@ def load(
             if differing:
                 changes[node] = differing
         for node, values in changes.items():
-            asked.set(node, values)
+            _warn(asked.set(node, values))
             for name, value in values.items():
                 print(f"{node}.{name} = {_text(value)}")
 
@@ -203,6 +204,12 @@ def watch(
 
     with graph(namespace) as asked:
         asked.watch(tell)
+
+
+def _warn(remark: str) -> None:
+    """What a node has to say of a change that it accepts."""
+    if remark:
+        print(f"fpt: {remark}", file=sys.stderr)
 
 
 def _change(text: str) -> "tuple[str, object]":

@@ -96,7 +96,7 @@ def run(
     robot = _robot(no_plant, composed, states, efforts, duration)
     if record is not None:
         check_new_directory(record)
-    warn_about_gain(experiment)
+    experiment = warn_about_gain(experiment)
     with tempfile.TemporaryDirectory(prefix="fpt_ros-") as folder:
         bag = record or Path(folder) / "recording"
         result, failure = run_recorded(

@@ -23,6 +23,21 @@ COMPENSATOR = Parameter(
     live=False,
 )
 
+GAIN_SCALE = Parameter(
+    "gain_scale",
+    "what the range of A follows from, as fpt gain finds it, with the sign of the response's "
+    "eigenvalues; fpt run tells it; 0: not known",
+    0.0,
+    live=False,
+)
+
+STRICT_GAIN = Parameter(
+    "strict_gain",
+    "refuse an A that is outside of the range in which the iteration contracts, or of which that "
+    "is not known; else it is accepted with a warning",
+    False,
+)
+
 PARAMETERS = (
     TRANSFORMATION,
     COMPENSATOR,
@@ -63,6 +78,8 @@ PARAMETERS = (
         [],
         live=False,
     ),
+    GAIN_SCALE,
+    STRICT_GAIN,
     SYNCHRONISED,
     Parameter("await_tuning", "a tuner is in the loop: wait for it", False, live=False),
     Parameter("effort_command", "publish the efforts for a ros2_control controller", False),

@@ -42,6 +42,7 @@ def as_numbers(experiment: Experiment, found: Gain, tried: dict[str, Any]) -> di
         "turn": found.turn,
         "slope": found.slope,
         "feedback": found.feedback,
+        "gain_scale": found.signed_scale,
         "behaviours": rows,
         "run": tried or None,
     }

@@ -28,6 +28,7 @@ import numpy as np
 
 from fpt_ros.errors import BadInput
 from fpt_ros.experiments.response_map import Point, nominal_points
+from fpt_ros.gain.interval import linear_limit, sign_of
 from fpt_ros.gain.limits import MARGIN, Gain, times
 from fpt_ros.gain.map import scalar_map
 from fpt_ros.gain.motion import feedback, spectrum
@@ -85,10 +86,10 @@ def bounds(experiment: "Experiment", points: Sequence[Point] | None = None) -> G
     fed_back = feedback(loop)
     scale = 1.0 / (steepest * (1.0 + fed_back)) if steepest > 0.0 else 1.0
     slope = transformation.slope(constants)
-    sign = int(-math.copysign(1.0, slope * side)) if one_sign else 0
+    sign = sign_of(slope, side) if one_sign else 0
     hard = scalar.hard_onset() if not turn else None
     hard_onset = hard.p * scale if hard is not None and one_sign else None
-    linear = scalar.linear * scale if one_sign else 0.0
+    linear = linear_limit(slope, scale) if one_sign else 0.0
     best = MARGIN * min(0.5 * linear, hard_onset if hard_onset is not None else math.inf)
     low, high = scalar.edges
     return Gain(

@@ -20,6 +20,7 @@ from fpt_ros.gain.bands import (
     TWO_CYCLE,
     Band,
 )
+from fpt_ros.gain.interval import Interval, holds, interval
 from fpt_ros.gain.map import ScalarMap
 from fpt_ros.runs.run import Array
 
@@ -78,14 +79,18 @@ class Gain:
     scalar: ScalarMap
 
     @property
-    def range(self) -> tuple[float, float]:
+    def range(self) -> Interval:
         """The open interval of A in which the iteration contracts; empty where ``sign`` is 0."""
-        return (-self.linear_limit, 0.0) if self.sign < 0 else (0.0, self.linear_limit)
+        return interval(self.sign, self.linear_limit)
+
+    @property
+    def signed_scale(self) -> float:
+        """``scale`` with the sign of the eigenvalues: ``fpt_deformer.gain_scale``; 0: no A."""
+        return -math.copysign(self.scale, self.slope) * self.sign
 
     def contracts(self, A: float) -> bool:
         """Whether small response errors decay with this gain."""
-        low, high = self.range
-        return low < A < high
+        return holds(A, self.range)
 
     @property
     def hard_step(self) -> float:

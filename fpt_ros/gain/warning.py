@@ -3,9 +3,12 @@
 import shlex
 from typing import TYPE_CHECKING
 
+from fpt_ros.cycle.deformer_parameters import GAIN_SCALE
+from fpt_ros.cycle.fpt_deformer import FptDeformer
 from fpt_ros.errors import BadInput
 from fpt_ros.gain.bands import verb
 from fpt_ros.gain.contraction import bounds
+from fpt_ros.gain.limits import Gain
 from fpt_ros.parameters import flag
 from fpt_ros.tuning import GAIN
 
@@ -13,15 +16,34 @@ if TYPE_CHECKING:
     from fpt_ros.experiments.experiment import Experiment
 
 
-def warning(experiment: "Experiment") -> str:
-    """What is to be said, in one line, of an experiment's A before a run; empty: nothing."""
+def known(experiment: "Experiment") -> Gain | None:
+    """What is known of the range of an experiment's A; ``None``: nothing, or a law gives A."""
     loop = experiment.loop()
     if not loop.deformer.transformation.adapts or loop.tuner.law.tunes == GAIN:
-        return ""
+        return None
     try:
-        gain = bounds(experiment)
+        return bounds(experiment)
     except BadInput:
+        return None
+
+
+def told(experiment: "Experiment", gain: Gain | None) -> "Experiment":
+    """The same experiment, its deformer told what it has to know to judge an A in flight."""
+    values = experiment.nodes[FptDeformer.name]
+    guarded = flag(experiment.loop().tuner.values, "precursor_guard")  # it lowers |A| by itself
+    if gain is None or guarded or values[GAIN_SCALE.name]:
+        return experiment
+    return experiment.with_values(FptDeformer.name, **{GAIN_SCALE.name: gain.signed_scale})
+
+
+def warning(experiment: "Experiment", gain: Gain | None) -> str:
+    """What is to be said, in one line, of an experiment's A before a run; empty: nothing.
+
+    ``gain``: what is :func:`known` of it.
+    """
+    if gain is None:
         return ""
+    loop = experiment.loop()
     A, sign = gain.given, gain.sign
     more = shlex.join(["fpt", "gain", *(experiment.source or (experiment.name,))])
     low, high = gain.range

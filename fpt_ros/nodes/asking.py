@@ -155,8 +155,11 @@ class Graph:
         found.update(zip(given, map(value_of, values.values), strict=True))
         return found
 
-    def set(self, node: str, changes: Mapping[str, object]) -> None:
+    def set(self, node: str, changes: Mapping[str, object]) -> str:
         """Change parameters, all of them or none; they take effect at one cycle boundary.
+
+        Returns:
+            What the node has to say of it; empty: nothing.
 
         Raises:
             BadInput: the node refuses them, with its reason.
@@ -172,6 +175,7 @@ class Graph:
         ).result
         if not result.successful:
             raise BadInput(f"{node}: {result.reason}")
+        return str(result.reason)
 
     def trigger(self, service: str) -> str:
         """Call a std_srvs/Trigger; what it answers.

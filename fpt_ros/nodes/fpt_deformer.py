@@ -3,6 +3,7 @@
 from time import monotonic
 
 from diagnostic_msgs.msg import DiagnosticStatus
+from rcl_interfaces.msg import SetParametersResult
 from rclpy.parameter import Parameter as RosParameter
 from std_msgs.msg import Bool, Float64MultiArray
 from std_srvs.srv import Trigger
@@ -11,9 +12,10 @@ from fpt_ros.cycle.fpt_deformer import FptDeformer
 from fpt_ros.cycle.limits import COMMAND_TIMEOUT, STOPPED
 from fpt_ros.errors import Diverged
 from fpt_ros.messages.frames import SECOND, Command, Frame
+from fpt_ros.nodes.gain_node import GainNode
 from fpt_ros.nodes.process import report_progress, run_process
 from fpt_ros.nodes.robot import EFFORT_COMMAND
-from fpt_ros.nodes.stage_node import StageNode
+from fpt_ros.nodes.stage_node import CHANGES, StageNode
 
 E_STOP = "e_stop"
 """A topic (true: stop), and a service of the node; ``RELEASE`` is a service alone."""
@@ -38,9 +40,28 @@ class DeformerNode(StageNode):
         self._reports = reports
         self._efforts = self.create_publisher(Float64MultiArray, EFFORT_COMMAND, 1)
         self._measured_at = 0.0
+        self._gain = GainNode(self, self.stage, CHANGES)
+        self.warning = self._gain.warning
         self.create_service(Trigger, f"~/{E_STOP}", self._on_e_stop)
         self.create_service(Trigger, f"~/{RELEASE}", self._on_release)
         self.create_subscription(Bool, E_STOP, self._on_e_stop_topic, 10)
+
+    def consider(self, tried: FptDeformer, names: set[str]) -> None:
+        """A gain that does not contract is warned of, or refused."""
+        self._gain.consider(tried, names)
+        self.warning = self._gain.warning
+
+    def set_parameters(self, parameter_list: list[RosParameter]) -> list[SetParametersResult]:
+        """As of any node; what is to be said of a gain goes to who has set it."""
+        return [self.set_parameters_atomically([each]) for each in parameter_list]
+
+    def set_parameters_atomically(self, parameter_list: list[RosParameter]) -> SetParametersResult:
+        """As of any node; rclpy leaves out the reason of what is accepted."""
+        self._gain.remark = ""
+        result = super().set_parameters_atomically(parameter_list)
+        if result.successful and self._gain.remark:
+            result.reason = f"warning: {self._gain.remark}"
+        return result
 
     def send(self, frame: Frame) -> None:
         """Publish the command, and the bare efforts where ``effort_command`` is set."""
@@ -104,7 +125,7 @@ class DeformerNode(StageNode):
         if stopped and self._realtime and self._matcher.acted >= 0:
             self._command_safe_effort()  # now, not at the next measurement
         done = "the safe effort is commanded" if stopped else "released: the next cycle begins anew"
-        return bool(result.successful), str(result.reason) or done
+        return bool(result.successful), done if result.successful else str(result.reason)
 
     def _on_e_stop(self, request: Trigger.Request, response: Trigger.Response) -> Trigger.Response:
         response.success, response.message = self._stop(True)

@@ -60,6 +60,7 @@ class LoopNode(Node):
         deadline: monotonic time [s] at which :meth:`on_deadline` is due, or None.
         newest_counts: all messages that have come are taken, and then :meth:`act` is called.
         level: of what it tells on /diagnostics.
+        warning: what is to be said of it on /diagnostics; empty: nothing.
         ignored: number of messages that were not used.
     """
 
@@ -71,6 +72,7 @@ class LoopNode(Node):
         self.deadline: float | None = None
         self.cycles_done = 0
         self.ignored = 0
+        self.warning = ""
         self._reasons: dict[str, None] = {}
         self._senders: list[Sender] = []
         self.level = DiagnosticStatus.OK
@@ -149,6 +151,9 @@ class LoopNode(Node):
         summary, values = self.health()
         values = {"cycles": self.cycles_done, "rate [1/s]": f"{rate:.1f}", **values}
         level = self.level
+        if self.warning:
+            level = max(level, DiagnosticStatus.WARN)
+            values["warning"] = self.warning
         if self.ignored:
             level = max(level, DiagnosticStatus.WARN)
             values["ignored messages"] = self.ignored

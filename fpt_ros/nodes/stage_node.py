@@ -78,9 +78,17 @@ class ParameterisedNode(LoopNode):
         """
         ours = {name: value for name, value in changes.items() if name in self.stage.values}
         if ours:
-            type(self.stage)({**self.stage.values, **self._pending, **ours})
+            tried = type(self.stage)({**self.stage.values, **self._pending, **ours})
+            self.consider(tried, set(ours))
             self._kept.accept({**self._pending, **ours})
             self._pending.update(ours)
+
+    def consider(self, tried: Any, names: set[str]) -> None:
+        """Look at a valid change of these parameters; ``tried``: the stage that it makes.
+
+        Raises:
+            BadInput: it is refused.
+        """
 
     def apply_changes(self, stamp: int) -> None:
         """Cycle boundary: what was accepted takes effect, and is told with this cycle's stamp."""

@@ -3,7 +3,8 @@
 from command import forked_fpt as fpt
 
 from fpt_ros.experiments.experiment import available, load
-from fpt_ros.gain.warning import warning
+from fpt_ros.gain.warning import known
+from fpt_ros.gain.warning import warning as warning_of
 
 OUTSIDE = {
     ("kapitza", "listing"): "outside the range (-5.071, 0)",
@@ -18,6 +19,10 @@ OUTSIDE = {
 
 ALIKE = ("iiwa", "ur5e")
 """Arms with the settings of panda."""
+
+
+def warning(experiment):
+    return warning_of(experiment, known(experiment))
 
 
 def test_only_those_warn_whose_gain_is_outside():

@@ -3,9 +3,12 @@
 import signal
 
 from command import forked_fpt, start_fpt
+from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
+from rcl_interfaces.msg import Log
 from watcher import watcher
 
 from fpt_ros.experiments.parameter_file import read
+from fpt_ros.nodes.qos import loop_qos
 
 
 def ask(*words):
@@ -55,8 +58,37 @@ def test_parameters_of_a_running_graph(tmp_path):
             done = ask(*words)
             assert done.returncode == 2
             assert reason in done.stderr
+        a_gain_that_does_not_contract(graph)
     process.send_signal(signal.SIGINT)
     process.communicate(timeout=60)
+
+
+def a_gain_that_does_not_contract(graph):
+    """Set in flight: accepted with a warning to all, or refused; of a model changed: not known."""
+    outside = "fpt_deformer.A = -5 is outside the range (-4.658, 0)"
+    said, health = [], {}
+    graph.node.create_subscription(Log, "/rosout", lambda m: said.append(m.msg), loop_qos(100))
+    graph.node.create_subscription(
+        DiagnosticArray, "/diagnostics", lambda m: health.update((s.name, s) for s in m.status), 10
+    )
+    done = ask("set", "fpt_deformer", "A=-5")
+    assert done.returncode == 0
+    assert done.stderr.startswith(f"fpt: warning: {outside}")
+    (result, reason) = graph.set_parameter("fpt_deformer", "A", -5.0)
+    assert result is True
+    assert outside in reason
+    while not (any(outside in text for text in said) and "fpt_deformer" in health):
+        graph.executor.spin_once(timeout_sec=1.0)
+    while not any(outside in pair.value for pair in health["fpt_deformer"].values):
+        graph.executor.spin_once(timeout_sec=1.0)
+    assert health["fpt_deformer"].level == DiagnosticStatus.WARN
+    assert ask("set", "fpt_deformer", "strict_gain=true", "A=-0.1").stderr == ""
+    done = ask("set", "fpt_deformer", "A=-5")
+    assert done.returncode == 2
+    assert f"strict_gain: {outside}" in done.stderr
+    assert graph.get_parameter("fpt_deformer", "A") == -0.1
+    ask("set", "fpt_deformer", "approximate.m=11", "strict_gain=false")
+    assert "not known here, fpt_deformer.approximate.m has" in ask("set", "fpt_deformer", "A=-0.2").stderr
 
 
 def test_changes_are_watched(tmp_path):
