@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 from fpt_ros.analysis import signals
 from fpt_ros.analysis.signals import Stamps
 from fpt_ros.analysis.truth import Truth
+from fpt_ros.bags import begun_again
 from fpt_ros.cycle.noise import Noise
 from fpt_ros.cycle.trajectory_generator import TrajectoryGenerator
 from fpt_ros.experiments.nominal import sample
@@ -199,12 +200,12 @@ class _Noise:
 
     @classmethod
     def of(cls, about: Run) -> "_Noise | None":
-        """Of a run that has any."""
+        """Of a run that has any, and was not reset: the cycle tells the noise."""
 
         def value(name: str) -> float:
             return signals.parameter_number(about, "plant_simulator", name) or 0.0
 
-        if not value("noise.position"):
+        if not value("noise.position") or about.info.get(begun_again.TOPIC):
             return None
         plant = signals.plant_of(about)
         if plant is None:

@@ -8,6 +8,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from fpt_ros.bags import begun_again
 from fpt_ros.cycle.plant_simulator import PlantSimulator
 from fpt_ros.cycle.suffered import SENSORS
 from fpt_ros.errors import Diverged
@@ -27,9 +28,12 @@ class Truth:
     def of(cls, about: Run) -> "Truth | None":
         """Of a run in lockstep whose sensors are disturbed; others need none.
 
-        On the wall clock it is not told which cycle a late command has acted on.
+        On the wall clock it is not told which cycle a late command has acted on; of a run that was
+        reset the second one would have to begin in the middle.
         """
         values = about.parameters.get(PlantSimulator.name, {})
+        if about.info.get(begun_again.TOPIC):
+            return None
         if not values.get(SENSORS.name) or values.get("realtime"):
             return None
         return cls(PlantSimulator(values))

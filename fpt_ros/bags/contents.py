@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass, field
 
-from fpt_ros.bags import changes, diagnostics, parameter_text
+from fpt_ros.bags import begun_again, changes, diagnostics, parameter_text
 from fpt_ros.bags.bag import END, INFO, Bag
 from fpt_ros.bags.block import Block, Source
 from fpt_ros.bags.loop_series import loop_topic
@@ -22,6 +22,7 @@ class Aside:
     bag: Bag
     latency: Latencies | None = None
     changes: list[Change] = field(default_factory=list)
+    begun_again: list[int] = field(default_factory=list)
 
     def is_of_the_loop(self, source: Source) -> bool:
         """Whether it is a topic of the run's own loop."""
@@ -30,13 +31,12 @@ class Aside:
         return loop_topic(source) is not None and own
 
     def take(self, block: Block) -> None:
-        """Look for latencies and changes of parameters."""
+        """Look for latencies, changes of parameters, and where the run begins again."""
         for source, rows in block.rows.items():
             told = source == Source(diagnostics.TOPIC, diagnostics.TYPE)
-            if not told and (source.topic.rpartition("/")[2], source.type) != (
-                changes.TOPIC,
-                changes.TYPE,
-            ):
+            kind = source.topic.rpartition("/")[2], source.type
+            reset = kind == (begun_again.TOPIC, begun_again.TYPE)
+            if not (told or reset or kind == (changes.TOPIC, changes.TYPE)):
                 continue
             for stamp, start, end, _ in rows.tolist():
                 data = bytes(block.data[start:end])
@@ -44,6 +44,10 @@ class Aside:
                     if told:
                         node = self._plant()
                         self.latency = diagnostics.latencies(data, node) or self.latency
+                    elif reset:
+                        begun = begun_again.stamp(data)
+                        if begun not in self.begun_again:  # told again by a plant started again
+                            self.begun_again.append(begun)
                     else:
                         change = changes.change(data)
                         if change not in self.changes:  # told again by a node started again
@@ -56,6 +60,12 @@ class Aside:
     def _plant(self) -> str:
         namespace = self.bag.metadata.get(INFO, {}).get("namespace", "").strip("/")
         return f"{namespace}/{PlantSimulator.name}" if namespace else PlantSimulator.name
+
+
+def told_of_resets(about: dict[str, str], aside: Aside) -> dict[str, str]:
+    """What a recording says of itself, with where its run begins again, if it does."""
+    stamps = aside.begun_again
+    return {**about, **({begun_again.TOPIC: begun_again.text(stamps)} if stamps else {})}
 
 
 def parameters(bag: Bag) -> dict[str, dict[str, Value]]:

@@ -54,7 +54,8 @@ def read_run(path: Path) -> Run:
         loop = ", ".join(BY_NAME)
         raise BadInput(f"{path} holds no messages on the loop's topics: {loop}")
     ending = contents.ending(bag)
-    return Run({**about, **ending}, parameters, topics, aside.latency, tuple(aside.changes))
+    about = contents.told_of_resets({**about, **ending}, aside)
+    return Run(about, parameters, topics, aside.latency, tuple(aside.changes))
 
 
 def play(path: Path, consumers: Callable[[Mapping[str, Values]], Sequence[Consumer]]) -> Run:
@@ -92,7 +93,9 @@ def info(path: Path) -> dict[str, object]:
     bag = Bag(path)
     first: int | None = None
     last = 0
+    aside = contents.Aside(bag)
     for block in bag.blocks():
+        aside.take(block)
         for rows in block.rows.values():
             if len(rows):
                 low, high = int(rows[:, 0].min()), int(rows[:, 0].max())
@@ -100,7 +103,7 @@ def info(path: Path) -> dict[str, object]:
                 last = max(last, high)
     ours = parameter_text.NAME in bag.attachments
     parameters = contents.parameters(bag) if ours else {}
-    known = contents.ending(bag)
+    known = contents.told_of_resets(contents.ending(bag), aside)
     about = {key: known.get(key, "") for key in ("experiment", "variant", "engine")}
     rest = {key: value for key, value in known.items() if key not in about}
     return {

@@ -1,4 +1,4 @@
-"""``fpt pause``, ``resume``, ``step``, ``stop``, ``e-stop``: of a graph that runs already."""
+"""``fpt pause``, ``resume``, ``step``, ``reset``, ``stop``, ``e-stop``: of a graph that runs already."""
 
 from typing import Annotated
 
@@ -38,6 +38,27 @@ def step(
     with graph(namespace) as asked:
         asked.set(PLANT, {"step_cycles": cycles})
         print(asked.trigger(f"{PLANT}/step"))
+
+
+def reset(namespace: Namespace = "") -> None:
+    """Let a running graph begin again: initial state, nothing learned, parameters as they are.
+
+    Stamps go on; the numbers are those of a new run with the same parameters, to the last bit. A
+    graph that is paused stands still at its beginning, one that is stopped stays so.
+
+    Example: fpt reset
+    """
+    from fpt_ros.errors import RunFailed
+    from fpt_ros.nodes.asking import graph
+
+    with graph(namespace) as asked:
+        here = asked.nodes()
+        if PLANT not in here and DEFORMER in here:
+            raise RunFailed(
+                "reset: this graph has no plant_simulator, and a robot cannot be put back where it "
+                "was; what is learned begins anew with fpt e-stop and fpt e-stop --release"
+            )
+        print(asked.trigger(f"{PLANT}/reset"))
 
 
 def stop(namespace: Namespace = "") -> None:

@@ -75,6 +75,7 @@ COMMANDS: tuple[tuple[str, Callable[..., Any], str], ...] = (
     ("pause", control.pause, ""),
     ("resume", control.resume, ""),
     ("step", control.step, ""),
+    ("reset", control.reset, ""),
     ("stop", control.stop, ""),
     ("e-stop", control.e_stop, ""),
     ("reproduce", reproduce.reproduce, "thesis"),

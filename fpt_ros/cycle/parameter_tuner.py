@@ -159,6 +159,12 @@ class ParameterTuner(Stage):
         Y = [0.0] * (self.rows * len(start))
         self.work = TunerWork([0.0] * n, [0.0] * n, Y, [0.0] * self.rows, [0.0] * c)
 
+    def _at_start(self) -> Stage:
+        start = ParameterTuner(self.values)
+        if self.published and not start.published:
+            start.begin(self._joints, self._controlled)
+        return start
+
     def step(self, estimate: StateEstimate, *rest: "Desired | Command | None") -> Tuning:
         """What is tuned in cycle k; the initial values in the first cycle, without a command.
 

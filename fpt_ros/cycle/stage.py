@@ -162,6 +162,20 @@ class Stage(ABC):
             self._prepare()
             raise
 
+    def begin_again(self) -> None:
+        """Forget all that was remembered: the next cycle is the first one. Parameters stay."""
+        start = self._at_start()
+        self._prepare()  # without what a tuner has put into force
+        self.clock[0] = self.clock[1] = -1
+        state = memoryview(self.state)
+        state[:] = (
+            memoryview(start.state) if len(start.state) else array("d", bytes(8 * len(state)))
+        )
+
+    def _at_start(self) -> "Stage":
+        """A new stage with the same parameters."""
+        return type(self)(self.values)
+
     @abstractmethod
     def _prepare(self) -> None:
         """Work out the constants of the laws from ``values``."""

@@ -19,6 +19,7 @@ from fpt_ros.messages.topics import COMMAND, DEPTH, JOINT_STATES
 from fpt_ros.nodes.process import report_progress
 from fpt_ros.nodes.qos import heard_qos
 from fpt_ros.nodes.recorded_until import RECORDED_UNTIL, TIME, decode_time
+from fpt_ros.nodes.reset import Reset
 from fpt_ros.nodes.run_control import RunControl
 from fpt_ros.nodes.stage_node import ParameterisedNode
 from fpt_ros.runs.latency import HISTOGRAM, LARGEST, MISSED, Histogram
@@ -32,7 +33,8 @@ REMEMBERED = 1024
 AGAIN = 0.5
 """Seconds without a command after which, in lockstep, the measurement is published once more."""
 
-PAUSED = "paused"
+PAUSED, FIRSTS = "paused", "firsts"
+"""Kept: whether the run is paused; the cycles with which it has begun again."""
 
 LAST_REPORT = Duration(seconds=2)
 """How long the last report waits for those who hear it, the recorder among them."""
@@ -47,7 +49,7 @@ class PlantNode(ParameterisedNode):
         self._realtime = stage.values["realtime"] is True
         self._awaits_recorder = stage.values["await_recorder"] is True
         self._decode = Codec(COMMAND).decode
-        self._cycle = 0
+        self._cycle = self._first = 0
         self._origin = 0
         self._recorded = -1
         self._stamp = -1
@@ -60,8 +62,9 @@ class PlantNode(ParameterisedNode):
         self._misses = 0
         self._latencies: list[float] = []
         self._histogram = Histogram()
-        self._control = RunControl(self, self._step_cycles, self._end_pause)
-        self._stands_still = False
+        self._control = RunControl(self, self._step_cycles, self._end_pause, self._want_reset)
+        self._reset = Reset(self)
+        self._stands_still = self._between = False
         qos = heard_qos(self._realtime)
         self.subscribe_raw(COMMAND.name, COMMAND.type, qos, self._on_command)
         if self._awaits_recorder:
@@ -85,6 +88,9 @@ class PlantNode(ParameterisedNode):
         self._origin = self._stamp - self._cycle * self.stage.cycle_time
         self._sent_at.append(monotonic())
         self._control.paused = self._kept.aside.get(PAUSED) is True
+        firsts = [0, *self._kept.aside.get(FIRSTS, ())]
+        self._first = max(first for first in firsts if first <= self._cycle)
+        self._reset.is_wanted = firsts[-1] > self._cycle  # killed while it asked the others
         if self._realtime:  # until a command comes in time
             self._command = self.stage.safe_command(self._stamp - self.stage.timeout)
 
@@ -100,7 +106,7 @@ class PlantNode(ParameterisedNode):
     def _publish_cycle(self) -> None:
         self._stamp = self._origin + self._cycle * self.stage.cycle_time
         self._sent_at.append(monotonic())
-        self.send(self.stage.measure(self._stamp, self._cycle))
+        self.send(self.stage.measure(self._stamp, self._cycle - self._first))
 
     def _on_command(self, data: bytes) -> bool:
         try:
@@ -124,9 +130,9 @@ class PlantNode(ParameterisedNode):
         return True
 
     def _start_clock(self) -> None:
-        """Real time begins when cycle 0 has gone around, and is recorded: all are there then.
+        """Real time begins when the first cycle has gone around, and is recorded.
 
-        It goes on where somebody commands.
+        All are there then. It goes on where somebody commands.
         """
         if self._clock_runs or self._command is None:
             return
@@ -163,9 +169,11 @@ class PlantNode(ParameterisedNode):
     def _end_cycle(self, command: Command) -> None:
         if self._pending:
             self.apply_changes(self._stamp)
-        self.stage.advance(command, self._stamp - self._origin)
+        began = self._origin + self._first * self.stage.cycle_time
+        self.stage.advance(command, self._stamp - began)
         self._cycle += 1
-        if self._cycle == self.stage.cycles or self._control.stopped:
+        ended = self._cycle - self._first >= self.stage.cycles and not self._reset.is_wanted
+        if ended or self._control.stopped:
             self._over = True
             self.deadline = None
             report_progress(self._cycle)
@@ -185,8 +193,10 @@ class PlantNode(ParameterisedNode):
         return int(cycles)
 
     def _begin_cycle(self) -> None:
-        """The next cycle, if the run is not paused."""
-        if self._control.may_begin():
+        """The next cycle, if the run is not paused, and does not begin again."""
+        if self._reset.is_wanted:
+            self._ask_to_forget()
+        elif self._control.may_begin():
             self._publish_cycle()
         else:
             self._stands_still, self.deadline = True, None
@@ -199,6 +209,38 @@ class PlantNode(ParameterisedNode):
         if self._realtime:
             self._next_tick = self.deadline = monotonic() + self.stage.dt
         self._begin_cycle()
+
+    def _want_reset(self) -> str:
+        """The run is to begin again; why it cannot, or nothing."""
+        if self._over:
+            return "the run is over"
+        if self._stamp < 0:
+            return "the run has not begun yet"
+        self._reset.is_wanted = True
+        if self._stands_still:
+            self._ask_to_forget()
+        return ""
+
+    def _ask_to_forget(self) -> None:
+        """Between two cycles: the others are asked, and all go on when they have answered."""
+        if not self._between:
+            self._between, self.deadline = True, None
+            self._kept.aside[FIRSTS] = [*self._kept.aside.get(FIRSTS, ()), self._cycle]
+            self._kept.save()
+
+    def _all_acted(self) -> bool:
+        """Whether no other node will act on a cycle of before; in real time an answer may lack."""
+        answered = self._command is not None and self._command.stamp == self._stamp
+        return answered or monotonic() - self._sent_at[-1] > AGAIN
+
+    def _begin_again(self) -> None:
+        """All others have forgotten; parameters and stamps go on."""
+        self._between = self._clock_runs = False
+        self.stage.begin_again()
+        self._first, self._command = self._cycle, None
+        self._reset.tell(self._origin + self._cycle * self.stage.cycle_time)
+        if not self._stands_still:
+            self._begin_cycle()
 
     def _behind(self) -> bool:
         """Whether the recorder has to catch up first."""
@@ -233,7 +275,9 @@ class PlantNode(ParameterisedNode):
         if self._kept.aside.get(PAUSED, False) != self._control.paused:
             self._kept.aside[PAUSED] = self._control.paused
             self._kept.save()
-        still = self._held_back or self.finished or self._stands_still
+        if self._between and self._all_acted() and self._reset.is_done():
+            self._begin_again()
+        still = self._held_back or self.finished or self._stands_still or self._between
         waits = bool(self._sent_at) and not (self._realtime or still)
         if waits and monotonic() - max(self._sent_at[-1], self._sent_again) > AGAIN:
             self._sent_again = monotonic()

@@ -19,6 +19,7 @@ from rclpy.qos import DurabilityPolicy
 from rclpy.subscription import Subscription
 
 from fpt_ros import __version__
+from fpt_ros.bags import begun_again
 from fpt_ros.bags.split import Split
 from fpt_ros.bags.writer import BagWriter
 from fpt_ros.cycle.arrivals import Arrivals
@@ -50,6 +51,7 @@ SIDE_TOPICS = {
     ROSOUT: "rcl_interfaces/msg/Log",
     "/parameter_events": "rcl_interfaces/msg/ParameterEvent",
     CHANGES: "rcl_interfaces/msg/ParameterEvent",
+    begun_again.TOPIC: begun_again.TYPE,
 }
 """Recorded as they come; no cycle depends on them."""
 

@@ -5,7 +5,7 @@ from collections.abc import Callable
 from rclpy.node import Node
 from std_srvs.srv import Trigger
 
-SERVICES = ("pause", "resume", "step", "stop")
+SERVICES = ("pause", "resume", "step", "stop", "reset")
 """Of the plant's node, all std_srvs/Trigger; ``step`` goes on for ``step_cycles`` cycles."""
 
 
@@ -17,9 +17,19 @@ class RunControl:
         stopped: whether it is to end after this cycle.
     """
 
-    def __init__(self, node: Node, steps: Callable[[], int], go_on: Callable[[], None]) -> None:
-        """``steps``: cycles of a step; ``go_on`` is called where a run that stands still may go."""
+    def __init__(
+        self,
+        node: Node,
+        steps: Callable[[], int],
+        go_on: Callable[[], None],
+        reset: Callable[[], str],
+    ) -> None:
+        """``steps``: cycles of a step; ``go_on`` is called where a run that stands still may go.
+
+        ``reset`` lets the run begin again, or says why it cannot.
+        """
         self.paused = self.stopped = False
+        self._reset = reset
         self._left = 0
         self._steps, self._go_on = steps, go_on
         for name in SERVICES:
@@ -54,6 +64,14 @@ class RunControl:
         self.paused = False
         self._go_on()
         return _answer(answer, "the run ends with this cycle")
+
+    def _on_reset(self, request: Trigger.Request, answer: Trigger.Response) -> Trigger.Response:
+        refused = "the run ends with this cycle" if self.stopped else self._reset()
+        if refused:
+            answer.success, answer.message = False, refused
+            return answer
+        stands = ", and stands still there" if self.paused else ""
+        return _answer(answer, f"begins again after this cycle, parameters stay{stands}")
 
 
 def _answer(answer: Trigger.Response, text: str) -> Trigger.Response:

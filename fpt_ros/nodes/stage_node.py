@@ -6,6 +6,7 @@ from typing import Any
 
 from rcl_interfaces.msg import ParameterEvent
 from rclpy.parameter import Parameter as RosParameter
+from std_srvs.srv import Trigger
 
 from fpt_ros.cycle.arrivals import Arrivals
 from fpt_ros.cycle.matcher import Matcher
@@ -17,11 +18,15 @@ from fpt_ros.messages.topics import JOINT_STATES, Topic
 from fpt_ros.nodes.kept import Kept, KeptCycle
 from fpt_ros.nodes.loop_node import LoopNode
 from fpt_ros.nodes.qos import LATEST, heard_qos, loop_qos, sensor_qos
+from fpt_ros.nodes.reset import BEGIN_AGAIN
 from fpt_ros.nodes.ros_parameters import declare, watch
 from fpt_ros.parameters import Value
 
 CHANGES = "parameter_changes"
 """Topic of the changes made in flight, each with the stamp of the cycle in which it took effect."""
+
+FORGETS = "forgets"
+"""Kept: stamp of the cycle after which all that was remembered counts no more."""
 
 
 class ParameterisedNode(LoopNode):
@@ -138,6 +143,8 @@ class StageNode(ParameterisedNode):
         self._matcher = Matcher(inputs, cycle_time, realtime, acted)
         self._realtime = self.newest_counts = realtime
         self._newest: list[Frame | None] | None = None
+        self._begins_again = bool(self._kept.cycles) and self._kept.aside.get(FORGETS) == acted
+        self.create_service(Trigger, f"~/{BEGIN_AGAIN}", self._on_begin_again)
         self._robot = bool(self.stage.values.get("robot", False))
         if self._robot and not realtime:
             raise BadInput(f"{kind.name}.robot: a robot lives in wall time, set realtime as well")
@@ -207,7 +214,21 @@ class StageNode(ParameterisedNode):
         """One cycle."""
         if self._pending:
             self.apply_changes(self._matcher.acted)
+        if self._begins_again:
+            self._begins_again = False
+            self.stage.begin_again()
+            pairs = zip(self._inputs, frames, strict=True)
+            frames = [None if each.lag else frame for each, frame in pairs]  # of no cycle before
         self.send(self.stage.step(*frames))
+
+    def _on_begin_again(
+        self, request: Trigger.Request, answer: Trigger.Response
+    ) -> Trigger.Response:
+        self._begins_again = True
+        self._kept.aside[FORGETS] = self._matcher.acted
+        self._kept.save()
+        answer.success, answer.message = True, "the next cycle is the first one"
+        return answer
 
 
 def run_stage(kind: type[Stage]) -> None:

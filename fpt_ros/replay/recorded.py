@@ -9,7 +9,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import NamedTuple, Self
 
-from fpt_ros.bags import contents
+from fpt_ros.bags import begun_again, contents
 from fpt_ros.bags.bag import Bag
 from fpt_ros.bags.loop_series import loop_topic
 from fpt_ros.cycle.denoiser import Denoiser
@@ -63,7 +63,7 @@ class Recorded:
         """Read what it says of itself.
 
         Raises:
-            BadInput: it is not a recording of the loop.
+            BadInput: it is not a recording of the loop, or of one that begins again.
         """
         self.path = path
         bag = Bag(path)
@@ -74,6 +74,11 @@ class Recorded:
             for source, rows in block.rows.items():
                 if len(rows) and aside.is_of_the_loop(source):
                     last = max(last, int(rows[:, 0].max()))
+        if aside.begun_again:
+            raise BadInput(
+                f"{path}: the run was reset at {begun_again.text(aside.begun_again)}: what began "
+                "again cannot be run again"
+            )
         self.parameters: dict[str, dict[str, Value]] = contents.parameters(bag)
         self.info = contents.ending(bag)
         self.changes: tuple[Change, ...] = tuple(aside.changes)

@@ -88,7 +88,10 @@ def a_gain_that_does_not_contract(graph):
     assert f"strict_gain: {outside}" in done.stderr
     assert graph.get_parameter("fpt_deformer", "A") == -0.1
     ask("set", "fpt_deformer", "approximate.m=11", "strict_gain=false")
-    assert "not known here, fpt_deformer.approximate.m has" in ask("set", "fpt_deformer", "A=-0.2").stderr
+    assert (
+        "not known here, fpt_deformer.approximate.m has"
+        in ask("set", "fpt_deformer", "A=-0.2").stderr
+    )
 
 
 def test_changes_are_watched(tmp_path):
