@@ -9,6 +9,7 @@ effort that acted: r = M^-1 (Q_acted - h^), so that r and the response observed 
 import math
 
 from fpt_ros.cycle.deformation import DeformerConstants, DeformerMemory, DeformerWork
+from fpt_ros.cycle.holding import hold, let_go
 from fpt_ros.cycle.limits import ACTED, CLAMP, NO_ANTI_WINDUP, LimitWork
 from fpt_ros.cycle.rows import CommandRow, Estimated, Measured
 from fpt_ros.laws import Indices, MutableVector, Vector, helper
@@ -40,7 +41,8 @@ def look_back(
     if count == 0 or lapsed:
         forget(memory, len(work.zeros))
         for i in range(len(memory.effort)):  # it has acted meanwhile
-            memory.effort[i] = limits.safe[i] if lapsed else 0.0
+            if not (lapsed and limits.hold.holds):  # what held, it does
+                memory.effort[i] = limits.safe[i] if lapsed else 0.0
         return
     if limits.windup == NO_ANTI_WINDUP:
         return
@@ -88,9 +90,13 @@ def limit_effort(
     if limits.stopped:  # nothing is learned, and the next controlled cycle begins anew
         for i in range(n):
             out.effort[i] = limits.safe[i]
+        if limits.hold.holds:
+            q, v = estimate.positions, estimate.velocities
+            hold(limits.hold, limits.safe, limits.effort, memory.held, q, v, out.effort)
         forget(memory, n)
         keep(memory, estimate, out)
         return
+    let_go(memory.held)
     if limits.remembers:
         engage(memory, dt, measured)
     for i in range(n):

@@ -45,6 +45,7 @@ class DeformerMemory(NamedTuple):
     For a compensator and for limits: motion and effort of the cycle before (n each). For a
     compensator: its memory. For limits: ring of the last efforts sent; r of the last cycle that was
     not limited; the effort from which the controller takes over (n each); how long ago it did [s].
+    The position that is held (n), NaN where none is.
     """
 
     cycles: MutableVector
@@ -58,6 +59,7 @@ class DeformerMemory(NamedTuple):
     unlimited: MutableVector
     start: MutableVector
     engaged: MutableVector
+    held: MutableVector
 
 
 class DeformerWork(NamedTuple):

@@ -8,6 +8,7 @@ from fpt_ros.cycle.approximate_model import model_of
 from fpt_ros.cycle.commanding import command_cycle
 from fpt_ros.cycle.deformation import DeformerConstants, DeformerMemory, DeformerWork, apply_tuning
 from fpt_ros.cycle.deformer_parameters import COMPENSATOR, TRANSFORMATION, deformer_parameters
+from fpt_ros.cycle.holding import hold, let_go
 from fpt_ros.cycle.joints import Entrance
 from fpt_ros.cycle.limits import limit_work, limits_of
 from fpt_ros.cycle.records import Layout
@@ -49,9 +50,10 @@ class FptDeformer(Stage):
     @property
     def inputs(self) -> tuple[Input, ...]:
         """Estimate and desired response of the cycle; the measurement where it is asked which
-        effort acted; tuning where a tuner is in the loop.
+        effort acted, or a position may have to be held; tuning where a tuner is in the loop.
         """
-        measured = (Input(JOINT_STATES, optional=True),) if self.limits.remembers else ()
+        asks = self.limits.remembers or self.limits.hold.holds
+        measured = (Input(JOINT_STATES, optional=True),) if asks else ()
         tuning = (Input(TUNING_TOPIC),) if flag(self.values, "await_tuning") else ()
         return (Input(STATE_ESTIMATE), Input(DESIRED), *measured, *tuning)
 
@@ -90,6 +92,7 @@ class FptDeformer(Stage):
             unlimited=n * limits,
             start=n * limits,
             engaged=limits,
+            held=n * self.limits.hold.holds,
         )
         self.memory, fresh = self._remember(layout)
         if fresh:
@@ -97,6 +100,7 @@ class FptDeformer(Stage):
                 for i in range(n):
                     self.memory.deformed[turn, i] = NOT_CONTROLLED
                     self.memory.observed[turn, i] = NOT_CONTROLLED
+            let_go(self.memory.held)
         controlled = self.controlled or tuple(words(values, CONTROLLED.name))
         self._tuning_names: Names = ()
         self._desired = Entrance(f"{self.name}, desired", controlled, partial=True)
@@ -251,6 +255,15 @@ class FptDeformer(Stage):
         """What is commanded where nothing is measured any more, or in a stop."""
         n = len(self.model.coordinates)
         return Command(stamp, self.model.coordinates, [math.nan] * n, self.limits.safe)
+
+    def hold_command(self, measured: JointStates) -> Command:
+        """What holds the position of a measurement, where nothing but that comes any more."""
+        limits, memory, n = self.limits, self.memory, len(self.model.coordinates)
+        q, v, effort = measured.position, measured.velocity, [0.0] * n
+        hold(limits.hold, limits.safe, limits.effort, memory.held, q, v, effort)
+        for i in range(len(memory.effort)):
+            memory.effort[i] = effort[i]
+        return Command(measured.stamp, self.model.coordinates, [math.nan] * n, effort)
 
     @property
     def coordinates(self) -> Names:

@@ -7,6 +7,8 @@ they do: :mod:`fpt_ros.cycle.acting`.
 import math
 from typing import NamedTuple
 
+from fpt_ros.cycle.holding import PARAMETERS as HOLDING
+from fpt_ros.cycle.holding import HoldConstants, hold_of
 from fpt_ros.cycle.stage import REALTIME
 from fpt_ros.errors import BadInput
 from fpt_ros.laws import MutableVector, Vector
@@ -66,6 +68,7 @@ PARAMETERS = (
     ),
     STOPPED,
     COMMAND_TIMEOUT,
+    *HOLDING,
 )
 
 
@@ -74,7 +77,7 @@ class LimitConstants(NamedTuple):
 
     ``effort``, ``rate``: largest ones (n; inf: none); ``windup``: of :data:`WINDUP`; ``tolerance``:
     of the effort that acted; ``take_over``, ``timeout`` [s] (0: none); ``safe`` effort (n),
-    commanded while ``stopped``.
+    commanded while ``stopped``, unless the position is held (``hold``).
     """
 
     acts: int
@@ -87,6 +90,7 @@ class LimitConstants(NamedTuple):
     timeout: float
     stopped: int
     safe: Vector
+    hold: HoldConstants
 
 
 class LimitWork(NamedTuple):
@@ -144,4 +148,5 @@ def limits_of(values: Values, coordinates: Names, who: str) -> LimitConstants:
         timeout=timeout,
         stopped=int(stopped),
         safe=safe,
+        hold=hold_of(values, coordinates, who),
     )

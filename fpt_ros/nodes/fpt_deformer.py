@@ -11,16 +11,20 @@ from std_srvs.srv import Trigger
 from fpt_ros.cycle.fpt_deformer import FptDeformer
 from fpt_ros.cycle.limits import COMMAND_TIMEOUT, STOPPED
 from fpt_ros.errors import Diverged
-from fpt_ros.messages.frames import SECOND, Command, Frame
+from fpt_ros.messages.frames import SECOND, Command, Frame, JointStates
+from fpt_ros.messages.topics import Topic
 from fpt_ros.nodes.gain_node import GainNode
 from fpt_ros.nodes.process import report_progress, run_process
 from fpt_ros.nodes.robot import EFFORT_COMMAND
+from fpt_ros.nodes.silence import Measured
 from fpt_ros.nodes.stage_node import CHANGES, StageNode
 
 E_STOP = "e_stop"
 """A topic (true: stop), and a service of the node; ``RELEASE`` is a service alone."""
 
 RELEASE = "release"
+
+SAFE, HOLDING = "the safe effort is commanded", "the position is held"
 
 AGAIN = 0.02
 """Seconds after which the safe effort is commanded once more while nothing is measured."""
@@ -40,6 +44,7 @@ class DeformerNode(StageNode):
         self._reports = reports
         self._efforts = self.create_publisher(Float64MultiArray, EFFORT_COMMAND, 1)
         self._measured_at = 0.0
+        self._measured = Measured()
         self._gain = GainNode(self, self.stage, CHANGES)
         self.warning = self._gain.warning
         self.create_service(Trigger, f"~/{E_STOP}", self._on_e_stop)
@@ -77,7 +82,7 @@ class DeformerNode(StageNode):
                 raise
             self.ignore(f"this cycle, the safe effort is commanded: {error}")  # a robot goes on
             self.stage.forget()
-            self._command_safe_effort()
+            self._command_safe_effort()  # what it computes now is not to be trusted: no hold
         if self.level != DiagnosticStatus.OK:
             self.level = DiagnosticStatus.OK
             self.get_logger().warning("measured again: the controller takes over")
@@ -98,15 +103,38 @@ class DeformerNode(StageNode):
             self._command_safe_effort()
 
     def on_deadline(self) -> None:
-        """Nothing is measured any more."""
+        """The loop is silent: nothing is measured any more, or another node does not answer."""
         if self.level == DiagnosticStatus.OK:
             self.level = DiagnosticStatus.ERROR
             self.get_logger().error(
                 f"nothing has been measured for {COMMAND_TIMEOUT.name} = "
                 f"{self.stage.limits.timeout:g} s: the safe effort is commanded"
+                if self._held_by() is None
+                else f"the loop is silent for {COMMAND_TIMEOUT.name} = "
+                f"{self.stage.limits.timeout:g} s: the position is held"
             )
-        self._command_safe_effort()
+        self._command_safety()
         self.deadline = monotonic() + AGAIN
+
+    def heard(self, topic: Topic, frame: Frame) -> None:
+        """A measurement; where the position has to be held by that alone, it is answered."""
+        if isinstance(frame, JointStates) and self.stage.limits.hold.holds:
+            self._measured.take(frame)
+            if self.level != DiagnosticStatus.OK:
+                self._command_safety()
+                self.deadline = monotonic() + self.stage.limits.timeout
+
+    def _held_by(self) -> JointStates | None:
+        """The measurement that is held by; ``None``: none is young enough, or it is not wanted."""
+        return self._measured.newest(self.stage.limits.timeout)
+
+    def _command_safety(self) -> None:
+        """What holds the position, where that is wanted and measured; else the safe effort."""
+        measured = self._held_by()
+        if measured is not None:
+            self.send(self.stage.hold_command(measured))
+        else:
+            self._command_safe_effort()
 
     def _command_safe_effort(self) -> None:
         age = monotonic() - self._measured_at if self._measured_at else 0.0
@@ -114,17 +142,20 @@ class DeformerNode(StageNode):
 
     def health(self) -> tuple[str, dict[str, object]]:
         """Whether it controls."""
+        holds = self.stage.limits.hold.holds
         if self.stage.limits.stopped:
-            return "stopped: the safe effort is commanded", {}
+            return f"stopped: {HOLDING if holds else SAFE}", {}
         if self.level != DiagnosticStatus.OK:
-            return "nothing is measured: the safe effort is commanded", {}
+            held = self._held_by() is not None
+            return f"the loop is silent: {HOLDING}" if held else f"nothing is measured: {SAFE}", {}
         return super().health()
 
     def _stop(self, stopped: bool) -> tuple[bool, str]:
         (result,) = self.set_parameters([RosParameter(STOPPED.name, value=stopped)])
         if stopped and self._realtime and self._matcher.acted >= 0:
-            self._command_safe_effort()  # now, not at the next measurement
-        done = "the safe effort is commanded" if stopped else "released: the next cycle begins anew"
+            self._command_safety()  # now, not at the next measurement
+        what = HOLDING if self.stage.limits.hold.holds else SAFE
+        done = what if stopped else "released: the next cycle begins anew"
         return bool(result.successful), done if result.successful else str(result.reason)
 
     def _on_e_stop(self, request: Trigger.Request, response: Trigger.Response) -> Trigger.Response:

@@ -169,6 +169,9 @@ class StageNode(ParameterisedNode):
         summary, values = super().health()
         return summary, {**values, **self.stage.report()}
 
+    def heard(self, topic: Topic, frame: Frame) -> None:
+        """Called with each message that can be used, before its cycle is looked for."""
+
     def _receiver(self, index: int, topic: Topic) -> Callable[[bytes], bool]:
         take, decode = self._matcher.take, Codec(topic).decode
         arrivals = Arrivals() if self._robot and topic is JOINT_STATES else None
@@ -181,6 +184,7 @@ class StageNode(ParameterisedNode):
                 return False
             if arrivals is not None:
                 frame = self._in_time(arrivals, frame)
+            self.heard(topic, frame)
             frames = take(index, frame)
             if self._realtime:
                 self._newest = frames or self._newest

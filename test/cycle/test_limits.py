@@ -158,6 +158,44 @@ def test_a_stop_commands_the_safe_effort_and_the_release_begins_anew(arm):
     assert math.isfinite(efforts[-1][0])
 
 
+HOLD = (
+    "when_stopped=hold",
+    "hold.stiffness=[400.0, 200.0]",
+    "hold.damping=[40.0, 15.0]",
+    "safe_effort=[1.0, 0.0]",
+    "limit.effort=[8.0, 6.0]",
+)
+
+
+def test_a_stop_that_holds_stands_at_the_position_where_it_began(arm):
+    """A spring and a damper: the efforts that the formula gives, and an arm at rest in the end."""
+    loaded, stop, release = arm(*HOLD), 500, 1800
+    changes = {
+        stop: {"fpt_deformer": {"stopped": True}},
+        release: {"fpt_deformer": {"stopped": False}},
+    }
+    engine = Engine(loaded.loop(), changes=changes)
+    engine.run()
+    topics = engine.topics()
+    command, seen = topics["command"].vectors["effort"], topics["state_estimate"].vectors
+    q, v = seen["positions"], seen["velocities"]
+    spring = np.array([1.0, 0.0]) + np.array([400.0, 200.0]) * (q[stop] - q)
+    wanted = np.clip(spring - np.array([40.0, 15.0]) * v, [-8.0, -6.0], [8.0, 6.0])
+    assert np.array_equal(command[stop:release], wanted[stop:release])
+    assert (np.abs(command[stop:release]) == [8.0, 6.0]).any()  # it does limit
+    assert not np.array_equal(command[release], wanted[release])
+    assert np.abs(v[stop]).max() > 0.1
+    assert np.abs(v[release - 1]).max() < 1e-3
+    assert np.abs(q[release - 1] - q[stop]).max() < 0.05  # what weight and safe effort leave
+    frames = [f for _, f in Run(loaded.loop(), changes=changes).frames() if isinstance(f, Command)]
+    assert np.array_equal(command, [frame.effort for frame in frames])
+
+
+def test_to_hold_needs_a_stiffness():
+    with pytest.raises(BadInput, match=r"fpt_deformer.hold.stiffness: 0 given, 3 needed"):
+        load("tora", settings=["fpt_deformer.when_stopped=hold"])
+
+
 def test_limits_of_another_length_are_refused():
     with pytest.raises(BadInput, match=r"fpt_deformer.limit.effort: 2 given, 3 needed"):
         load("tora", settings=["fpt_deformer.limit.effort=[1.0, 2.0]"])

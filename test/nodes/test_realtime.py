@@ -1,6 +1,8 @@
 """The graph on the wall clock."""
 
+import numpy as np
 import psutil
+from command import forked_fpt
 from command import forked_fpt_json as fpt_json
 from command import start_fpt
 from mcap_ros2.reader import read_ros2_messages
@@ -43,6 +45,51 @@ def test_cycles_follow_the_wall_clock(tmp_path):
     largest = max(float(r["latency max [ms]"]) for r in reports if "latency max [ms]" in r)
     assert 1e3 * told.largest == largest
     assert result["real_time"]["missed_deadlines"] == told.missed
+
+
+HOLD = ("when_stopped=hold", "hold.stiffness=[40.0]", "hold.damping=[6.0]", "safe_effort=[0.5]")
+
+
+def test_a_loop_that_is_silent_or_stopped_holds_the_position(tmp_path):
+    """Another node stands still: the deformer holds by the measurement alone, and comes back."""
+    settings = [word for each in HOLD for word in ("--set", f"fpt_deformer.{each}")]
+    process = start_fpt(
+        "run", "vdp_second_order", "--variant", "nonadaptive", "--realtime", "--duration", 1000,
+        "--record", tmp_path / "bag", "--set", "plant_simulator.dt=0.005", *settings,
+    )  # fmt: skip
+    with watcher() as graph:
+        graph.wait_for_next()
+        other = node_of(process, "trajectory_generator")
+        other.suspend()
+        graph.stamp_after(1.0)
+        silent = graph.stamp_after(1.0)
+        other.resume()
+        graph.stamp_after(0.5)
+        assert "the position is held" in forked_fpt("e-stop").stdout
+        graph.stamp_after(1.0)
+        stopped = graph.stamp_after(0.5)
+        forked_fpt("stop")
+    _, stderr = process.communicate(timeout=90)
+    assert "diverged" not in stderr
+    topics = read_run(tmp_path / "bag").topics
+    for stamp, source, (q, v) in (
+        (silent, topics["joint_states"], ("position", "velocity")),
+        (stopped, topics["state_estimate"], ("positions", "velocities")),
+    ):
+        held, efforts = positions_held(
+            topics["command"], source.stamps, source.column(q, "q1"), source.column(v, "q1"), stamp
+        )
+        assert len(efforts) > 5
+        assert np.ptp(held) < 1e-9, held
+    assert topics["desired"].stamps[-1] > silent  # it came back
+
+
+def positions_held(command, stamps, q, v, until):
+    """What the efforts of the last 0.3 s before a stamp say of the position that is held."""
+    common, ours, theirs = np.intersect1d(command.stamps, stamps, return_indices=True)
+    there = (common <= until) & (common > until - 300_000_000)
+    effort = command.column("effort", "q1")[ours][there]
+    return (effort - 0.5 + 6.0 * v[theirs][there]) / 40.0 + q[theirs][there], effort
 
 
 def test_late_commands_give_way_to_the_safe_effort():
