@@ -237,6 +237,7 @@ setup(
             "dropouts = fpt_ros.disturbances.actuators.dropouts:DROPOUTS",
             "imprecise = fpt_ros.disturbances.actuators.imprecise:IMPRECISE",
             "lag = fpt_ros.disturbances.actuators.lag:LAG",
+            "late = fpt_ros.disturbances.actuators.late:LATE",
             "response = fpt_ros.disturbances.actuators.response:RESPONSE",
             "saturation = fpt_ros.disturbances.actuators.saturation:SATURATION",
         ],

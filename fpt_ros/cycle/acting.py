@@ -18,7 +18,7 @@ from fpt_ros.plants import Effort
 DISENGAGED = -1.0
 """In the place of the time since the controller took over: it has not."""
 
-HELD = 8
+HELD = 64
 """Cycles for which an effort sent before may still act: it came late, or a later one was lost."""
 
 

@@ -63,7 +63,7 @@ def test_the_loop_recovers_from_a_brake(arm):
     assert without.rms(0.2) > 0.5
 
 
-@pytest.mark.parametrize(("fault", "size"), [(lost, 0.1), (late, 1), (late, 3)])
+@pytest.mark.parametrize(("fault", "size"), [(lost, 0.1), (late, 3), (late, 8)])
 def test_single_late_or_lost_commands_leave_the_law_as_it_is(arm, fault, size):
     """The thesis's law goes on from its own last r, which bears them best (robots.md)."""
     plain, with_it = (Faulty(arm(f"anti_windup={kind}"), fault(size)) for kind in ("none", "acted"))

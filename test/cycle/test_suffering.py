@@ -50,6 +50,18 @@ def driven(name, efforts, **values):
     return np.array(rows)
 
 
+def test_commands_come_late_all_or_some():
+    sent = [(float(k), -float(k)) for k in range(1, 400)]
+    acting = driven("late", sent, cycles=7)
+    assert not acting[:7].any()  # none has come yet
+    assert np.array_equal(acting[7:], sent[:-7])
+    acting = driven("late", sent, cycles=7, probability=0.3)[:, 0]
+    age = np.array(sent)[:, 0] - acting
+    assert set(age) == set(range(8)) or set(age) < set(range(8))
+    assert (np.diff(acting) >= 0.0).all()  # one that is overtaken does not act
+    assert np.mean(age == 0.0) == pytest.approx(0.7, abs=0.07)
+
+
 def test_chance_is_the_minimal_standard_generator():
     """The 10,000th number from seed 1 is published (C++ standard, minstd_rand): 399268537."""
     state = [0.0]

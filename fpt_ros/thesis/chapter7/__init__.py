@@ -1,6 +1,7 @@
 """Chapter 7, the conclusions: noise, delay and loss in the loop."""
 
 from fpt_ros.thesis.chapter7 import (
+    actuators,
     delay,
     loss,
     noise,
@@ -12,4 +13,5 @@ CLAIMS = (
     *noise.CLAIMS,
     *delay.CLAIMS,
     *loss.CLAIMS,
+    *actuators.CLAIMS,
 )
