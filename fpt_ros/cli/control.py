@@ -1,4 +1,4 @@
-"""``fpt pause``, ``resume``, ``step``, ``reset``, ``stop``, ``e-stop``: of a graph that runs already."""
+"""``fpt pause``, ``resume``, ``step``, ``reset``, ``stop``, ``e-stop``: of a graph that runs."""
 
 from typing import Annotated
 

@@ -17,7 +17,7 @@ EFFORT, HOLD = "effort", "hold"
 WHEN_STOPPED = Parameter(
     "when_stopped",
     "what is commanded in an emergency stop, and where the loop is silent for command_timeout: "
-    "effort: safe_effort, hold: what holds the position where it stopped, as long as it is measured",
+    "effort: safe_effort, hold: what holds the position where it stopped, while that is measured",
     EFFORT,
     choices=(EFFORT, HOLD),
     live=False,

@@ -167,10 +167,8 @@ class Stage(ABC):
         start = self._at_start()
         self._prepare()  # without what a tuner has put into force
         self.clock[0] = self.clock[1] = -1
-        state = memoryview(self.state)
-        state[:] = (
-            memoryview(start.state) if len(start.state) else array("d", bytes(8 * len(state)))
-        )
+        zeros = array("d", bytes(8 * len(self.state)))  # where the first frame tells the size
+        memoryview(self.state)[:] = memoryview(start.state if len(start.state) else zeros)
 
     def _at_start(self) -> "Stage":
         """A new stage with the same parameters."""

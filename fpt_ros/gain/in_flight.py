@@ -1,8 +1,8 @@
 """What can be said of a gain A while the loop runs, by a node that does not know the plant.
 
-What it was told at the start (``gain_scale``) holds for the plant that the parameter files simulate,
-along the nominal motion. The transformation's own parameters are the node's: their slope is worked
-out anew. Where anything else that the range follows from has changed, nothing is said.
+What it was told at the start (``gain_scale``) holds for the plant that the parameter files
+simulate, along the nominal motion. The transformation's own parameters are the node's: their slope
+is worked out anew. Where anything else that the range follows from has changed, nothing is said.
 """
 
 from fpt_ros.cycle.deformer_parameters import GAIN_SCALE

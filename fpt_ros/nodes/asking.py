@@ -24,7 +24,7 @@ from fpt_ros.cycle.plant_simulator import PlantSimulator
 from fpt_ros.cycle.stages import STAGES
 from fpt_ros.errors import BadInput, RunFailed
 from fpt_ros.messages.topics import JOINT_STATES
-from fpt_ros.nodes import middleware
+from fpt_ros.nodes import doctor, middleware
 from fpt_ros.nodes.snapshot import KNOWN, OF_ROS
 from fpt_ros.nodes.stage_node import CHANGES
 from fpt_ros.parameters import Value
@@ -209,7 +209,12 @@ def _of_type(value: object, kind: int) -> Any:
 
 @contextmanager
 def graph(namespace: str = "") -> Iterator[Graph]:
-    """The running graph of a namespace."""
+    """The running graph of a namespace.
+
+    Raises:
+        BadInput: this machine has no DDS to offer.
+    """
+    doctor.check_fit()
     middleware.configure()
     context = Context()
     rclpy.init(context=context, args=[])

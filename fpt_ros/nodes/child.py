@@ -5,6 +5,7 @@ import ctypes
 import os
 import signal
 import sys
+import tempfile
 from collections import deque
 from collections.abc import Mapping, Sequence
 from pathlib import Path
@@ -101,13 +102,19 @@ async def started(
 def environment() -> Mapping[str, str]:
     """Environment of the processes.
 
-    Unless the user has chosen otherwise, nobody on the network hears us.
+    Unless the user has chosen otherwise, nobody on the network hears us. Where the home cannot be
+    written, logs go to the folder of temporary files.
     """
     defaults = {
         "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST",
         "PYTHONUNBUFFERED": "1",
         "RCUTILS_LOGGING_USE_STDOUT": "0",
     }
+    if not {"ROS_LOG_DIR", "ROS_HOME"} & os.environ.keys():
+        try:
+            (Path.home() / ".ros" / "log").mkdir(parents=True, exist_ok=True)
+        except OSError:
+            defaults["ROS_LOG_DIR"] = str(Path(tempfile.gettempdir()) / f"ros_log_{os.getuid()}")
     return {**defaults, **os.environ}
 
 

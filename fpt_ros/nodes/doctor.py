@@ -1,8 +1,11 @@
 """Whether this machine is fit for a graph: what is wrong, and what to do."""
 
+import fcntl
 import os
 import resource
 import shutil
+import socket
+import struct
 import sys
 import tempfile
 import time
@@ -11,12 +14,16 @@ from importlib import metadata
 from pathlib import Path
 from typing import NamedTuple
 
+from fpt_ros.errors import BadInput
 from fpt_ros.nodes import shared_memory
 
 OK, WARNING, WRONG = "ok", "warning", "wrong"
 
 DOMAINS = range(233)
 """Those for which Fast DDS has ports."""
+
+SIOCGIFFLAGS = 0x8913
+"""netdevice(7): the flags of a network interface, 1 of them: it is up."""
 
 SHM_NEEDED = 16 << 20
 """Bytes in /dev/shm that six processes take."""
@@ -45,6 +52,18 @@ def findings() -> Iterator[Finding]:
             yield check()
         except Exception as error:  # a check that cannot be made is a finding as well
             yield Finding(check.__name__.strip("_"), WARNING, f"cannot be looked at: {error}")
+
+
+def check_fit() -> None:
+    """Before a graph is started or asked: without these it could not even say what is wrong.
+
+    Raises:
+        BadInput: what is wrong, and what would be right.
+    """
+    for check in (_domain, _network):
+        found = check()
+        if found.state == WRONG:
+            raise BadInput(f"{found.what}: {found.text}; {found.remedy}")
 
 
 def _python() -> Finding:
@@ -93,8 +112,10 @@ def _discovery() -> Finding:
 
 
 def _network() -> Finding:
-    state = Path("/sys/class/net/lo/flags")
-    up = not state.exists() or int(state.read_text(), 16) & 1
+    asked = struct.pack("256s", b"lo")
+    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as any_socket:
+        answer = fcntl.ioctl(any_socket, SIOCGIFFLAGS, asked)  # /sys may be of another namespace
+    up = struct.unpack_from("16xH", answer)[0] & 1
     remedy = "" if up else "ip link set lo up: nodes of one machine need it"
     return Finding("loopback", OK if up else WRONG, "up" if up else "down", remedy)
 

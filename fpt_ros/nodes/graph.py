@@ -19,7 +19,7 @@ from fpt_ros.cycle.stages import STAGES
 from fpt_ros.errors import FptError, Interrupted, RunFailed
 from fpt_ros.experiments.description import NODE as RECORDER
 from fpt_ros.experiments.experiment import Experiment
-from fpt_ros.nodes import cores, run_folder, shared_memory
+from fpt_ros.nodes import cores, doctor, run_folder, shared_memory
 from fpt_ros.nodes.child import Child, end, started
 from fpt_ros.nodes.restarts import Restarts
 from fpt_ros.nodes.robot import Robot
@@ -56,10 +56,11 @@ def run(
         tell: is told of each restart.
 
     Raises:
-        BadInput: a node refused its parameters.
+        BadInput: a node refused its parameters, or this machine has no DDS to offer.
         RunFailed: a node failed or died; the recording is closed and says why.
         Interrupted: Ctrl-C.
     """
+    doctor.check_fit()
     realtime = realtime or robot is not None
     experiment = experiment.for_graph(realtime)
     if robot is not None:

@@ -19,7 +19,6 @@ from rclpy.qos import DurabilityPolicy
 from rclpy.subscription import Subscription
 
 from fpt_ros import __version__
-from fpt_ros.bags import begun_again
 from fpt_ros.bags.split import Split
 from fpt_ros.bags.writer import BagWriter
 from fpt_ros.cycle.arrivals import Arrivals
@@ -36,6 +35,7 @@ from fpt_ros.nodes.recorded_cycles import RecordedCycles
 from fpt_ros.nodes.recorded_run import last_change, reason_to_end, recorded_run
 from fpt_ros.nodes.recorded_until import BEGUN, RECORDED_UNTIL, TIME, encode_time
 from fpt_ros.nodes.ros_parameters import declare
+from fpt_ros.nodes.side_topics import ROSOUT, SIDE_DEPTH, SIDE_TOPICS
 from fpt_ros.nodes.snapshot import Snapshot
 from fpt_ros.nodes.stage_node import CHANGES
 from fpt_ros.nodes.take import gid_of
@@ -43,20 +43,6 @@ from fpt_ros.parameters import integer, word
 
 ACKNOWLEDGE = 8
 """Cycles between two messages to the plant."""
-
-ROSOUT = "/rosout"
-
-SIDE_TOPICS = {
-    "/diagnostics": "diagnostic_msgs/msg/DiagnosticArray",
-    ROSOUT: "rcl_interfaces/msg/Log",
-    "/parameter_events": "rcl_interfaces/msg/ParameterEvent",
-    CHANGES: "rcl_interfaces/msg/ParameterEvent",
-    begun_again.TOPIC: begun_again.TYPE,
-}
-"""Recorded as they come; no cycle depends on them."""
-
-SIDE_DEPTH = 1000
-"""Messages of a side topic that may wait to be recorded."""
 
 NICE = 10
 """In real time the loop comes first: misses with a recorder were down by a third to a half."""

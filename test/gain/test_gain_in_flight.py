@@ -1,4 +1,4 @@
-"""What a deformer that does not know the plant says of a gain: what ``fpt gain`` says, or nothing."""
+"""What a deformer that does not know the plant says of a gain: as ``fpt gain``, or nothing."""
 
 import numpy as np
 import pytest

@@ -2,9 +2,8 @@
 
 import numpy as np
 import psutil
-from command import forked_fpt
+from command import forked_fpt, start_fpt
 from command import forked_fpt_json as fpt_json
-from command import start_fpt
 from mcap_ros2.reader import read_ros2_messages
 from watcher import watcher
 
