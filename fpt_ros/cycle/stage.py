@@ -167,8 +167,9 @@ class Stage(ABC):
         start = self._at_start()
         self._prepare()  # without what a tuner has put into force
         self.clock[0] = self.clock[1] = -1
-        zeros = array("d", bytes(8 * len(self.state)))  # where the first frame tells the size
-        memoryview(self.state)[:] = memoryview(start.state if len(start.state) else zeros)
+        known = len(start.state) > 0  # else the first frame tells the size
+        for i in range(len(self.state)):
+            self.state[i] = start.state[i] if known else 0.0
 
     def _at_start(self) -> "Stage":
         """A new stage with the same parameters."""
