@@ -5,7 +5,6 @@ depend on the machine's speed. Real time: the cycle ends when the wall clock say
 command acts, or the safe effort where it is older than ``command_timeout``.
 """
 
-from collections import deque
 from time import monotonic, time_ns
 from typing import Any
 
@@ -22,13 +21,10 @@ from fpt_ros.nodes.recorded_until import RECORDED_UNTIL, TIME, decode_time
 from fpt_ros.nodes.reset import Reset
 from fpt_ros.nodes.run_control import RunControl
 from fpt_ros.nodes.stage_node import ParameterisedNode
-from fpt_ros.runs.latency import HISTOGRAM, LARGEST, MISSED, Histogram
+from fpt_ros.nodes.timing import Timing
 
 WINDOW = DEPTH * 3 // 4
 """Cycles that the loop may be ahead of the recorder: less than the history that publishers keep."""
-
-REMEMBERED = 1024
-"""Cycles whose command may still come and be timed."""
 
 AGAIN = 0.5
 """Seconds without a command after which, in lockstep, the measurement is published once more."""
@@ -55,13 +51,9 @@ class PlantNode(ParameterisedNode):
         self._stamp = -1
         self._command: Command | None = None
         self._held_back = self._over = self._clock_runs = False
-        self._sent_at: deque[float] = deque(maxlen=REMEMBERED)
-        self._timed = -1
+        self._timing = Timing()
         self._sent_again = 0.0
         self._next_tick = 0.0
-        self._misses = 0
-        self._latencies: list[float] = []
-        self._histogram = Histogram()
         self._control = RunControl(self, self._step_cycles, self._end_pause, self._want_reset)
         self._reset = Reset(self)
         self._stands_still = self._between = False
@@ -84,9 +76,9 @@ class PlantNode(ParameterisedNode):
     def _go_on(self) -> None:
         """In the place of a plant that was killed: the cycle is under way again, as in a pause."""
         self._cycle = self.cycles_done - 1
-        self._stamp = self._timed = self._kept.cycles[-1].stamp
+        self._stamp = self._timing.timed = self._kept.cycles[-1].stamp
         self._origin = self._stamp - self._cycle * self.stage.cycle_time
-        self._sent_at.append(monotonic())
+        self._timing.sent()
         self._control.paused = self._kept.aside.get(PAUSED) is True
         firsts = [0, *self._kept.aside.get(FIRSTS, ())]
         self._first = max(first for first in firsts if first <= self._cycle)
@@ -105,7 +97,7 @@ class PlantNode(ParameterisedNode):
 
     def _publish_cycle(self) -> None:
         self._stamp = self._origin + self._cycle * self.stage.cycle_time
-        self._sent_at.append(monotonic())
+        self._timing.sent()
         self.send(self.stage.measure(self._stamp, self._cycle - self._first))
 
     def _on_command(self, data: bytes) -> bool:
@@ -115,8 +107,9 @@ class PlantNode(ParameterisedNode):
             self.ignore(str(error))
             return False
         assert isinstance(command, Command)
-        if self._realtime and command.stamp > self._timed:
-            self._time(command.stamp)
+        if self._realtime and command.stamp != self._origin:  # that waits for discovery
+            late = (self._stamp - command.stamp) // self.stage.cycle_time
+            self._timing.heard(command.stamp, late)
         if self._realtime and self._cycle:
             self._start_clock()
         if command.stamp != self._stamp or command is self._command:
@@ -140,18 +133,6 @@ class PlantNode(ParameterisedNode):
             self._clock_runs = True
             self._next_tick = self.deadline = monotonic() + self.stage.dt
 
-    def _time(self, stamp: int) -> None:
-        """Count the latency of the command of a cycle, in time or late."""
-        late = (self._stamp - stamp) // self.stage.cycle_time
-        if not 0 <= late < len(self._sent_at):
-            return  # of another run, or too late to be known
-        if stamp == self._origin:
-            return  # it waits for discovery, and has no deadline
-        self._timed = stamp
-        latency = monotonic() - self._sent_at[-1 - late]
-        self._latencies.append(latency)
-        self._histogram.add(latency)
-
     def on_deadline(self) -> None:
         """Real time: the cycle is over, with or without its command."""
         command = self._command
@@ -159,7 +140,7 @@ class PlantNode(ParameterisedNode):
             return
         late = self._stamp - command.stamp
         if late:
-            self._misses += 1
+            self._timing.misses += 1
         if late >= self.stage.timeout:
             command = self.stage.safe_command(self._stamp)
         self._next_tick += self.stage.dt / float(self.stage.values["speed"])
@@ -231,7 +212,7 @@ class PlantNode(ParameterisedNode):
     def _all_acted(self) -> bool:
         """Whether no other node will act on a cycle of before; in real time an answer may lack."""
         answered = self._command is not None and self._command.stamp == self._stamp
-        return answered or monotonic() - self._sent_at[-1] > AGAIN
+        return answered or monotonic() - self._timing.latest > AGAIN
 
     def _begin_again(self) -> None:
         """All others have forgotten; parameters and stamps go on."""
@@ -278,8 +259,8 @@ class PlantNode(ParameterisedNode):
         if self._between and self._all_acted() and self._reset.is_done():
             self._begin_again()
         still = self._held_back or self.finished or self._stands_still or self._between
-        waits = bool(self._sent_at) and not (self._realtime or still)
-        if waits and monotonic() - max(self._sent_at[-1], self._sent_again) > AGAIN:
+        waits = self._timing.latest > 0.0 and not (self._realtime or still)
+        if waits and monotonic() - max(self._timing.latest, self._sent_again) > AGAIN:
             self._sent_again = monotonic()
             self.send_again()  # a message of this cycle may have been lost
         begins = self._cycle == 0 and not self._kept.cycles
@@ -301,15 +282,7 @@ class PlantNode(ParameterisedNode):
         """
         t = (self._stamp - self._origin) / SECOND
         values: dict[str, object] = {"time [s]": f"{t:.3f}"}
-        if self._realtime:
-            values[MISSED] = self._misses
-            values[LARGEST] = f"{1e3 * self._histogram.largest:.3f}"
-            values[HISTOGRAM] = self._histogram.text()
-        if self._latencies:
-            ordered, self._latencies = sorted(self._latencies), []
-            values["latency median [ms]"] = f"{1e3 * ordered[len(ordered) // 2]:.3f}"
-            values["latency p99 [ms]"] = f"{1e3 * ordered[int(0.99 * len(ordered))]:.3f}"
-            values["latency max [ms]"] = f"{1e3 * ordered[-1]:.3f}"
+        values |= self._timing.report(self._realtime)
         mode = "real time" if self._realtime else "lockstep"
         mode += ", paused" if self._stands_still else ""
         return f"cycle {self._cycle} of {self.stage.cycles}, {mode}", values

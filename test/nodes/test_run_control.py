@@ -3,6 +3,7 @@
 import signal
 
 import numpy as np
+import psutil
 from command import forked_fpt, forked_fpt_json, start_fpt
 from std_msgs.msg import Bool
 from watcher import watcher
@@ -10,6 +11,11 @@ from watcher import watcher
 from fpt_ros.bags.reader import read_run
 from fpt_ros.engine.engine import Engine
 from fpt_ros.experiments.experiment import load
+
+
+def node_of(process, name):
+    children = psutil.Process(process.pid).children(recursive=True)
+    return next(each for each in children if f"fpt_ros.nodes.{name}" in each.cmdline())
 
 
 def ask(*words):
@@ -72,6 +78,9 @@ def test_a_run_that_is_reset_has_the_numbers_of_a_new_one(tmp_path):
         graph.wait_for_next()
         ask("reset")
         graph.wait_for_next()
+        for name in ("plant_simulator", "denoiser"):  # a node that is started again knows of it
+            node_of(process, name).kill()
+            graph.wait_for_next()
     assert "ends" in ask("stop")
     _, stderr = process.communicate(timeout=60)
     assert process.returncode == 0, stderr
