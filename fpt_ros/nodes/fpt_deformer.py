@@ -38,6 +38,8 @@ class DeformerNode(StageNode):
     or as any parameter: so it is recorded with its cycle.
     """
 
+    _gain: GainNode | None = None
+
     def __init__(self, reports: bool = True) -> None:
         """``reports``: whether it tells how many cycles are done, if nobody else does."""
         super().__init__(FptDeformer)
@@ -53,6 +55,7 @@ class DeformerNode(StageNode):
 
     def consider(self, tried: FptDeformer, names: set[str]) -> None:
         """A gain that does not contract is warned of, or refused."""
+        assert self._gain is not None
         self._gain.consider(tried, names)
         self.warning = self._gain.warning
 
@@ -62,6 +65,8 @@ class DeformerNode(StageNode):
 
     def set_parameters_atomically(self, parameter_list: list[RosParameter]) -> SetParametersResult:
         """As of any node; rclpy leaves out the reason of what is accepted."""
+        if self._gain is None:  # being set up again, with what was accepted before
+            return super().set_parameters_atomically(parameter_list)
         self._gain.remark = ""
         result = super().set_parameters_atomically(parameter_list)
         if result.successful and self._gain.remark:

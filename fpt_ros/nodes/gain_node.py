@@ -8,6 +8,7 @@ from rclpy.node import Node
 from fpt_ros.cycle.fpt_deformer import FptDeformer
 from fpt_ros.errors import BadInput
 from fpt_ros.gain.in_flight import GainInFlight
+from fpt_ros.nodes.qos import loop_qos
 from fpt_ros.parameters import flag
 
 
@@ -25,7 +26,8 @@ class GainNode:
         self._tell: Callable[[str], object] = node.get_logger().warning
         self.remark = ""
         self.warning = "" if self._gain.unknown else self._gain.judge(stage)
-        node.create_subscription(ParameterEvent, topic, self._on_changes, 100)
+        # latched: a node that is started again hears what was changed before
+        node.create_subscription(ParameterEvent, topic, self._on_changes, loop_qos(100))
 
     def consider(self, tried: FptDeformer, names: set[str]) -> None:
         """Before a change of these parameters is accepted; ``tried``: the stage that it makes.
