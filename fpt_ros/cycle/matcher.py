@@ -9,6 +9,9 @@ from fpt_ros.messages.frames import SECOND, Frame
 RECENT = 16
 """Frames of an input that are kept in real time: answers may be late by as many cycles."""
 
+WALL = 10**9 * SECOND
+"""Stamps beyond it [ns] are of a clock of this century."""
+
 
 class Matcher:
     """Keeps the latest frames of each input, and tells when those of a cycle are complete.
@@ -84,6 +87,11 @@ class Matcher:
 
 def under_way(stamp: int) -> RunFailed:
     """For who comes to a run in lockstep that is not at its first cycle, but at ``stamp`` [ns]."""
+    if stamp > WALL:
+        return RunFailed(
+            f"stamps are of wall time ({stamp / SECOND:.0f} s), in lockstep they begin at 0: set "
+            "realtime (and robot, where a robot tells joint_states)"
+        )
     return RunFailed(
         f"a run is under way here already (t = {stamp / SECOND:g} s): use another ROS_DOMAIN_ID "
         "or --namespace"

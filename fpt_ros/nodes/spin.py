@@ -111,7 +111,9 @@ class _Services:
                 break  # mostly nobody calls: one look is what it costs
             handler()
             error = handler.exception()
-            if error is not None:
+            if isinstance(error, ValueError):  # rclpy's, of a parameter of a type that there is not
+                node.ignore(f"a call that cannot be read: {error}")
+            elif error is not None:
                 raise error
         node.housekeeping()
         self._due = monotonic() + SERVICE_PERIOD / len(self._served)

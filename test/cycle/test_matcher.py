@@ -4,7 +4,7 @@ import itertools
 
 import pytest
 
-from fpt_ros.cycle.matcher import Matcher
+from fpt_ros.cycle.matcher import Matcher, under_way
 from fpt_ros.cycle.stage import Input
 from fpt_ros.errors import RunFailed
 from fpt_ros.messages.frames import Command, Desired, StateEstimate
@@ -91,3 +91,8 @@ def test_in_real_time_the_newest_cycle_counts_and_a_lagging_input_may_be_absent(
 def test_it_goes_on_where_a_node_had_been():
     matcher = Matcher(INPUTS, MS, acted=6 * MS)
     assert [matcher.take(*each) for each in cycle(7)][-1] == [estimate(7), desired(7), command(6)]
+
+
+def test_stamps_of_wall_time_in_lockstep_are_told_from_another_run():
+    assert "set realtime" in str(under_way(1_795_650_000 * 10**9))
+    assert "under way here already (t = 3 s)" in str(under_way(3 * 10**9))
