@@ -11,7 +11,7 @@ from fpt_ros.cycle.fpt_deformer import FptDeformer
 from fpt_ros.cycle.limits import COMMAND_TIMEOUT, STOPPED
 from fpt_ros.errors import Diverged
 from fpt_ros.messages.frames import SECOND, Command, Frame
-from fpt_ros.nodes.process import report_progress, run_process
+from fpt_ros.nodes.process import run_process
 from fpt_ros.nodes.robot import EFFORT_COMMAND
 from fpt_ros.nodes.stage_node import StageNode
 
@@ -33,9 +33,8 @@ class DeformerNode(StageNode):
     """
 
     def __init__(self, reports: bool = True) -> None:
-        """``reports``: whether it tells how many cycles are done, if nobody else does."""
-        super().__init__(FptDeformer)
-        self._reports = reports
+        """``reports``: as of any stage's node."""
+        super().__init__(FptDeformer, reports)
         self._efforts = self.create_publisher(Float64MultiArray, EFFORT_COMMAND, 1)
         self._measured_at = 0.0
         self.create_service(Trigger, f"~/{E_STOP}", self._on_e_stop)
@@ -64,12 +63,6 @@ class DeformerNode(StageNode):
         if self._realtime and timeout > 0.0:
             self._measured_at = monotonic()
             self.deadline = self._measured_at + timeout
-
-    def housekeeping(self) -> None:
-        """Progress, where it is not the plant that tells it."""
-        super().housekeeping()
-        if self._reports:
-            report_progress(self.cycles_done)
 
     def close(self) -> None:
         """In real time the last command is the safe effort, whatever the reason of the end."""

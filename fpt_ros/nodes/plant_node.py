@@ -5,6 +5,7 @@ depend on the machine's speed. Real time: the cycle ends when the wall clock say
 command acts, or the safe effort where it is older than ``command_timeout``.
 """
 
+import sys
 from collections import deque
 from time import monotonic, time_ns
 from typing import Any
@@ -20,6 +21,7 @@ from fpt_ros.nodes.process import report_progress
 from fpt_ros.nodes.qos import heard_qos
 from fpt_ros.nodes.recorded_until import RECORDED_UNTIL, TIME, decode_time
 from fpt_ros.nodes.run_control import RunControl
+from fpt_ros.nodes.run_over import announce, announcer
 from fpt_ros.nodes.stage_node import ParameterisedNode
 from fpt_ros.runs.latency import HISTOGRAM, LARGEST, MISSED, Histogram
 
@@ -62,6 +64,7 @@ class PlantNode(ParameterisedNode):
         self._histogram = Histogram()
         self._control = RunControl(self, self._step_cycles, self._end_pause)
         self._stands_still = False
+        self._run_over = announcer(self)
         qos = heard_qos(self._realtime)
         self.subscribe_raw(COMMAND.name, COMMAND.type, qos, self._on_command)
         if self._awaits_recorder:
@@ -244,6 +247,12 @@ class PlantNode(ParameterisedNode):
                 f"another node publishes {self.resolve_topic_name(JOINT_STATES.name)} in this ROS "
                 "domain: use another ROS_DOMAIN_ID or --namespace"
             )
+
+    def close(self) -> None:
+        """Those of other hosts end too."""
+        if self.context.ok():
+            stopped = "" if self.finished else f"stopped in cycle {self._cycle}"
+            announce(self._run_over, str(sys.exc_info()[1] or stopped))
 
     def _report_last(self) -> None:
         """Diagnostics of the last cycles, for which no second is left; this process ends next."""

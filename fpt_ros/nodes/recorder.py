@@ -22,6 +22,7 @@ from fpt_ros import __version__
 from fpt_ros.bags.split import Split
 from fpt_ros.bags.writer import BagWriter
 from fpt_ros.cycle.arrivals import Arrivals
+from fpt_ros.cycle.stage import ENDS_WITH_PLANT
 from fpt_ros.cycle.turns import Turns
 from fpt_ros.errors import RunFailed
 from fpt_ros.experiments import description
@@ -35,6 +36,7 @@ from fpt_ros.nodes.recorded_cycles import RecordedCycles
 from fpt_ros.nodes.recorded_run import last_change, reason_to_end, recorded_run
 from fpt_ros.nodes.recorded_until import BEGUN, RECORDED_UNTIL, TIME, encode_time
 from fpt_ros.nodes.ros_parameters import declare
+from fpt_ros.nodes.run_over import end_with_plant
 from fpt_ros.nodes.snapshot import Snapshot
 from fpt_ros.nodes.stage_node import CHANGES
 from fpt_ros.nodes.take import gid_of
@@ -73,6 +75,8 @@ class Recorder(LoopNode):
     def __init__(self) -> None:
         super().__init__(description.NODE)
         values = declare(self, description.parameters)
+        if values.get(ENDS_WITH_PLANT.name) is True:
+            end_with_plant(self)
         self._lockstep = values.get("realtime") is not True
         self._robot = values.get("robot") is True
         self._cycles = integer(values, "cycles")

@@ -9,15 +9,17 @@ from rclpy.parameter import Parameter as RosParameter
 
 from fpt_ros.cycle.arrivals import Arrivals
 from fpt_ros.cycle.matcher import Matcher
-from fpt_ros.cycle.stage import Stage
+from fpt_ros.cycle.stage import ENDS_WITH_PLANT, Stage
 from fpt_ros.errors import BadInput
 from fpt_ros.messages.cdr import Codec, MalformedMessage
 from fpt_ros.messages.frames import SECOND, Frame
 from fpt_ros.messages.topics import JOINT_STATES, Topic
 from fpt_ros.nodes.kept import Kept, KeptCycle
 from fpt_ros.nodes.loop_node import LoopNode
+from fpt_ros.nodes.process import report_progress
 from fpt_ros.nodes.qos import LATEST, heard_qos, loop_qos, sensor_qos
 from fpt_ros.nodes.ros_parameters import declare, watch
+from fpt_ros.nodes.run_over import end_with_plant
 from fpt_ros.parameters import Value
 
 CHANGES = "parameter_changes"
@@ -121,8 +123,12 @@ class StageNode(ParameterisedNode):
     message that it cannot use (other bytes, a joint that is not there) is told once and ignored.
     """
 
-    def __init__(self, kind: type[Stage]) -> None:
+    def __init__(self, kind: type[Stage], reports: bool = True) -> None:
+        """``reports``: whether it tells how many cycles are done, if nobody else does."""
         super().__init__(kind)
+        self._reports = reports
+        if self.stage.values[ENDS_WITH_PLANT.name]:
+            end_with_plant(self)
         inputs = self._inputs = self.stage.inputs
         realtime = bool(self.stage.values.get("realtime", False))
         cycle_time = round(float(self.stage.values.get("cycle_time", 0.0)) * SECOND)
@@ -153,6 +159,12 @@ class StageNode(ParameterisedNode):
         """What the stage reports."""
         summary, values = super().health()
         return summary, {**values, **self.stage.report()}
+
+    def housekeeping(self) -> None:
+        """Progress, where it is not the plant that tells it."""
+        super().housekeeping()
+        if self._reports:
+            report_progress(self.cycles_done)
 
     def _receiver(self, index: int, topic: Topic) -> Callable[[bytes], bool]:
         take, decode = self._matcher.take, Codec(topic).decode
