@@ -1,5 +1,6 @@
 """Console script ``fpt_deformer``: the node that gives the commands, and may have to stop."""
 
+from collections.abc import Mapping
 from time import monotonic
 
 from diagnostic_msgs.msg import DiagnosticStatus
@@ -9,11 +10,12 @@ from std_srvs.srv import Trigger
 
 from fpt_ros.cycle.fpt_deformer import FptDeformer
 from fpt_ros.cycle.limits import COMMAND_TIMEOUT, STOPPED
-from fpt_ros.errors import Diverged
+from fpt_ros.errors import BadInput, Diverged
 from fpt_ros.messages.frames import SECOND, Command, Frame
 from fpt_ros.nodes.process import run_process
 from fpt_ros.nodes.robot import EFFORT_COMMAND
 from fpt_ros.nodes.stage_node import StageNode
+from fpt_ros.parameters import Value
 
 E_STOP = "e_stop"
 """A topic (true: stop), and a service of the node; ``RELEASE`` is a service alone."""
@@ -37,6 +39,7 @@ class DeformerNode(StageNode):
         super().__init__(FptDeformer, reports)
         self._efforts = self.create_publisher(Float64MultiArray, EFFORT_COMMAND, 1)
         self._measured_at = 0.0
+        self._laid_down = self._stays_stopped = False
         self.create_service(Trigger, f"~/{E_STOP}", self._on_e_stop)
         self.create_service(Trigger, f"~/{RELEASE}", self._on_release)
         self.create_subscription(Bool, E_STOP, self._on_e_stop_topic, 10)
@@ -46,6 +49,13 @@ class DeformerNode(StageNode):
         super().send(frame)
         if self.stage.values["effort_command"] and isinstance(frame, Command):
             self._efforts.publish(Float64MultiArray(data=list(frame.effort)))
+
+    def _accept(self, changes: Mapping[str, Value]) -> None:
+        if self._laid_down and STOPPED.name in changes:
+            if not changes[STOPPED.name]:
+                raise BadInput(f"{FptDeformer.name} is inactive: activate it (ros2 lifecycle set)")
+            self._stays_stopped = True
+        super()._accept(changes)
 
     def _step(self, frames: list[Frame | None]) -> None:
         try:
@@ -68,6 +78,19 @@ class DeformerNode(StageNode):
         """In real time the last command is the safe effort, whatever the reason of the end."""
         if self._realtime and self._matcher.acted >= 0 and self.context.ok():
             self._command_safe_effort()
+
+    def take_up(self) -> None:
+        """Active: it controls, unless an emergency stop was asked for."""
+        super().take_up()
+        if self._laid_down:
+            self._laid_down = False
+            self._stop(self._stays_stopped)
+
+    def lay_down(self) -> None:
+        """Inactive: the safe effort is commanded."""
+        self._stays_stopped = self.get_parameter(STOPPED.name).value is True
+        self._stop(True)
+        self._laid_down = True
 
     def on_deadline(self) -> None:
         """Nothing is measured any more."""

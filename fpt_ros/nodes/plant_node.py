@@ -54,7 +54,8 @@ class PlantNode(ParameterisedNode):
         self._recorded = -1
         self._stamp = -1
         self._command: Command | None = None
-        self._held_back = self._over = self._clock_runs = False
+        self._held_back = self._over = self._clock_runs = self._laid_down = False
+        self._may_start = not self._awaits_recorder
         self._sent_at: deque[float] = deque(maxlen=REMEMBERED)
         self._timed = -1
         self._sent_again = 0.0
@@ -91,10 +92,23 @@ class PlantNode(ParameterisedNode):
         if self._realtime:  # until a command comes in time
             self._command = self.stage.safe_command(self._stamp - self.stage.timeout)
 
-    def begin(self) -> None:
+    def take_up(self) -> None:
         """Publish cycle 0, where a recorder is awaited as soon as it says that it has begun."""
-        if not (self._kept.cycles or self._awaits_recorder):
+        if self._laid_down:
+            self._laid_down = False
+            self._control.resume()
+        elif self._stamp < 0 and self._may_start:
             self._start()  # it waits, latched, for whoever is not there yet
+
+    def lay_down(self) -> None:
+        """A pause."""
+        self._laid_down = True
+        self._control.pause()
+
+    def retire(self) -> None:
+        """The run ends with this cycle."""
+        self.finished = self._stamp < 0
+        self._control.stop()
 
     def _start(self) -> None:
         self._origin = time_ns() if self._realtime else 0
@@ -215,7 +229,8 @@ class PlantNode(ParameterisedNode):
         except MalformedMessage as error:
             self.ignore(str(error))
             return False
-        if self._stamp < 0:
+        self._may_start = True
+        if self._stamp < 0 and self.active:
             self._start()
         self._recorded = max(self._recorded, until)
         if self._realtime:

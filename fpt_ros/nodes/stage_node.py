@@ -9,13 +9,13 @@ from rclpy.parameter import Parameter as RosParameter
 
 from fpt_ros.cycle.arrivals import Arrivals
 from fpt_ros.cycle.matcher import Matcher
-from fpt_ros.cycle.stage import ENDS_WITH_PLANT, Stage
+from fpt_ros.cycle.stage import AUTOSTART, ENDS_WITH_PLANT, Stage
 from fpt_ros.errors import BadInput
 from fpt_ros.messages.cdr import Codec, MalformedMessage
 from fpt_ros.messages.frames import SECOND, Frame
 from fpt_ros.messages.topics import JOINT_STATES, Topic
 from fpt_ros.nodes.kept import Kept, KeptCycle
-from fpt_ros.nodes.loop_node import LoopNode
+from fpt_ros.nodes.managed import ManagedNode
 from fpt_ros.nodes.process import report_progress
 from fpt_ros.nodes.qos import LATEST, heard_qos, loop_qos, sensor_qos
 from fpt_ros.nodes.ros_parameters import declare, watch
@@ -26,7 +26,7 @@ CHANGES = "parameter_changes"
 """Topic of the changes made in flight, each with the stamp of the cycle in which it took effect."""
 
 
-class ParameterisedNode(LoopNode):
+class ParameterisedNode(ManagedNode):
     """A node that holds a stage; its live parameters change the stage at the next cycle."""
 
     def __init__(self, kind: type[Stage]) -> None:
@@ -71,6 +71,12 @@ class ParameterisedNode(LoopNode):
     def stamp(self) -> int:
         """Of the latest cycle [ns]."""
         raise NotImplementedError
+
+    def begin(self) -> None:
+        """It starts itself, where nobody else is to."""
+        super().begin()
+        if self.stage.values[AUTOSTART.name]:
+            self.start_itself()
 
     def _accept(self, changes: Mapping[str, Value]) -> None:
         """Try a change on a copy, keep it for the next cycle boundary.
@@ -127,6 +133,7 @@ class StageNode(ParameterisedNode):
         """``reports``: whether it tells how many cycles are done, if nobody else does."""
         super().__init__(kind)
         self._reports = reports
+        self._deaf = not self.stage.values[AUTOSTART.name]
         if self.stage.values[ENDS_WITH_PLANT.name]:
             end_with_plant(self)
         inputs = self._inputs = self.stage.inputs
@@ -160,6 +167,14 @@ class StageNode(ParameterisedNode):
         summary, values = super().health()
         return summary, {**values, **self.stage.report()}
 
+    def take_up(self) -> None:
+        """Active: it answers. In lockstep what it has missed is said again."""
+        self._deaf = False
+
+    def lay_down(self) -> None:
+        """Inactive: it does not hear. The loop waits; in real time the safe effort is commanded."""
+        self._deaf = True
+
     def housekeeping(self) -> None:
         """Progress, where it is not the plant that tells it."""
         super().housekeeping()
@@ -171,6 +186,8 @@ class StageNode(ParameterisedNode):
         arrivals = Arrivals() if self._robot and topic is JOINT_STATES else None
 
         def receive(data: bytes) -> bool:
+            if self._deaf:
+                return False
             try:
                 frame = self.stage.admit(topic, decode(data))
             except (MalformedMessage, BadInput) as error:
