@@ -11,7 +11,7 @@ from rclpy.lifecycle import LifecycleNodeMixin, LifecycleState, TransitionCallba
 from fpt_ros.nodes.loop_node import LoopNode
 
 
-class ManagedNode(LifecycleNodeMixin, LoopNode):  # type: ignore[misc]  # rclpy has no types
+class ManagedNode(LifecycleNodeMixin, LoopNode):
     """unconfigured, inactive, active, finalized; the process ends with the last.
 
     Attributes:
