@@ -22,7 +22,6 @@ from fpt_ros import __version__
 from fpt_ros.bags.split import Split
 from fpt_ros.bags.writer import BagWriter
 from fpt_ros.cycle.arrivals import Arrivals
-from fpt_ros.cycle.stage import ENDS_WITH_PLANT
 from fpt_ros.cycle.turns import Turns
 from fpt_ros.errors import RunFailed
 from fpt_ros.experiments import description
@@ -75,8 +74,7 @@ class Recorder(LoopNode):
     def __init__(self) -> None:
         super().__init__(description.NODE)
         values = declare(self, description.parameters)
-        if values.get(ENDS_WITH_PLANT.name) is True:
-            end_with_plant(self)
+        end_with_plant(self, values)
         self._lockstep = values.get("realtime") is not True
         self._robot = values.get("robot") is True
         self._cycles = integer(values, "cycles")
@@ -98,10 +96,9 @@ class Recorder(LoopNode):
             aside=True,
             again=bool(self._said_before),
         )
-        self._acknowledged = 0
         self._lost: RunFailed | None = None
         self._snapshot: Snapshot | None = None
-        self._started = False
+        self._started, self._acknowledged = False, 0
         self._side_subscriptions: list[tuple[Subscription, Callable[[bytes], None]]] = []
         self._until = self.create_publisher(message_class(TIME), RECORDED_UNTIL, loop_qos(1))
         until = self.resolve_topic_name(RECORDED_UNTIL)
@@ -262,11 +259,10 @@ class Recorder(LoopNode):
         Raises:
             RunFailed: the recording could not be written to the end.
         """
-        error = sys.exc_info()[1]
         self._take_what_has_come()
         for message in self._turns.rest():
             self._write(*message)
-        reason = reason_to_end() or (str(error) if error is not None else "")
+        reason = reason_to_end() or str(sys.exc_info()[1] or "")
         if self._lost is not None:
             raise self._lost
         done = len(self._recorded.stamps)

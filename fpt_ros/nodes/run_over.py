@@ -10,9 +10,11 @@ from rclpy.node import Node
 from rclpy.publisher import Publisher
 from std_msgs.msg import String
 
+from fpt_ros.cycle.stage import ENDS_WITH_PLANT
 from fpt_ros.errors import RunFailed
 from fpt_ros.nodes.loop_node import LoopNode
 from fpt_ros.nodes.qos import loop_qos
+from fpt_ros.parameters import Values
 
 RUN_OVER = "run_over"
 """Topic, std_msgs/String: why it ended, empty where it is complete."""
@@ -32,8 +34,13 @@ def announce(publisher: Publisher, reason: str) -> None:
     publisher.wait_for_all_acked(HEARD)
 
 
-def end_with_plant(node: LoopNode) -> None:
-    """Let a node end when the plant's node says so; as a failure if that was one."""
+def end_with_plant(node: LoopNode, values: Values) -> None:
+    """Let a node end when the plant's node says so, if its parameters ask for it.
+
+    It is a failure if that was one.
+    """
+    if values.get(ENDS_WITH_PLANT.name) is not True:
+        return
 
     def on_over(message: String) -> None:
         if message.data:

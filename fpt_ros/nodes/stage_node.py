@@ -9,7 +9,7 @@ from rclpy.parameter import Parameter as RosParameter
 
 from fpt_ros.cycle.arrivals import Arrivals
 from fpt_ros.cycle.matcher import Matcher
-from fpt_ros.cycle.stage import AUTOSTART, ENDS_WITH_PLANT, Stage
+from fpt_ros.cycle.stage import AUTOSTART, Stage
 from fpt_ros.errors import BadInput
 from fpt_ros.messages.cdr import Codec, MalformedMessage
 from fpt_ros.messages.frames import SECOND, Frame
@@ -134,8 +134,7 @@ class StageNode(ParameterisedNode):
         super().__init__(kind)
         self._reports = reports
         self._deaf = not self.stage.values[AUTOSTART.name]
-        if self.stage.values[ENDS_WITH_PLANT.name]:
-            end_with_plant(self)
+        end_with_plant(self, self.stage.values)
         inputs = self._inputs = self.stage.inputs
         realtime = bool(self.stage.values.get("realtime", False))
         cycle_time = round(float(self.stage.values.get("cycle_time", 0.0)) * SECOND)

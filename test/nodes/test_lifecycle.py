@@ -24,7 +24,7 @@ def change(graph, node, label):
 
 def test_states_pauses_and_the_safe_effort(tmp_path):
     process = start_fpt(
-        "run", "tora", "--duration", 1000, "--record", tmp_path / "bag",
+        "run", "vdp_second_order", "--duration", 1000, "--record", tmp_path / "bag",
         "--set", "plant_simulator.autostart=false",
     )  # fmt: skip
     events = []
@@ -66,7 +66,12 @@ def test_states_pauses_and_the_safe_effort(tmp_path):
     assert process.returncode == 0, stderr
     efforts = read_run(tmp_path / "bag").topics["command"].vectors["effort"]
     forked_fpt_json(
-        "simulate", "tora", "--duration", healthy / 1000, "--record", tmp_path / "engine"
+        "simulate",
+        "vdp_second_order",
+        "--duration",
+        healthy / 1000,
+        "--record",
+        tmp_path / "engine",
     )
     truth = read_run(tmp_path / "engine").topics["command"].vectors["effort"]
     assert np.array_equal(efforts[:healthy], truth)
