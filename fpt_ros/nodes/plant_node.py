@@ -54,8 +54,7 @@ class PlantNode(ParameterisedNode):
         self._recorded = -1
         self._stamp = -1
         self._command: Command | None = None
-        self._held_back = self._over = self._clock_runs = self._laid_down = False
-        self._may_start = not self._awaits_recorder
+        self._held_back = self._over = self._clock_runs = False
         self._sent_at: deque[float] = deque(maxlen=REMEMBERED)
         self._timed = -1
         self._sent_again = 0.0
@@ -64,7 +63,7 @@ class PlantNode(ParameterisedNode):
         self._latencies: list[float] = []
         self._histogram = Histogram()
         self._control = RunControl(self, self._step_cycles, self._end_pause)
-        self._stands_still = False
+        self._stands_still = self._laid_down = self._is_recorded = False
         self._run_over = announcer(self)
         qos = heard_qos(self._realtime)
         self.subscribe_raw(COMMAND.name, COMMAND.type, qos, self._on_command)
@@ -95,9 +94,8 @@ class PlantNode(ParameterisedNode):
     def take_up(self) -> None:
         """Publish cycle 0, where a recorder is awaited as soon as it says that it has begun."""
         if self._laid_down:
-            self._laid_down = False
             self._control.resume()
-        elif self._stamp < 0 and self._may_start:
+        elif self._stamp < 0 and (self._is_recorded or not self._awaits_recorder):
             self._start()  # it waits, latched, for whoever is not there yet
 
     def lay_down(self) -> None:
@@ -229,7 +227,7 @@ class PlantNode(ParameterisedNode):
         except MalformedMessage as error:
             self.ignore(str(error))
             return False
-        self._may_start = True
+        self._is_recorded = True
         if self._stamp < 0 and self.active:
             self._start()
         self._recorded = max(self._recorded, until)
