@@ -94,6 +94,7 @@ setup(
         ("share/ament_index/resource_index/packages", ["resource/fpt_ros"]),
         ("share/fpt_ros", ["package.xml"]),
         ("share/fpt_ros/config", glob("config/*.yaml")),
+        ("share/fpt_ros/config/security", glob("config/security/*.xml")),
         ("share/fpt_ros/launch", glob("launch/*.launch.py")),
         ("share/fpt_ros/layouts", glob("layouts/*.*")),
     ],

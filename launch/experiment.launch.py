@@ -12,6 +12,7 @@ from launch_ros.actions import Node
 from fpt_ros.cycle.stages import STAGES
 from fpt_ros.experiments.experiment import load
 from fpt_ros.gain.warning import known, told
+from fpt_ros.nodes.part import Part
 from launch import LaunchDescription
 
 
@@ -24,14 +25,25 @@ def ended(event, context):
     return [Shutdown(reason=f"{event.action.name} ended")]
 
 
+def ended_with_plant(event, context):
+    """The plant is on another host: each node ends by itself when that one says so."""
+    if event.returncode and not context.is_shutdown:
+        raise RuntimeError(f"{event.action.name} ended with status {event.returncode}")
+
+
 def start(context):
-    experiment_name, variant, record, namespace = (
+    experiment_name, variant, record, namespace, only = (
         LaunchConfiguration(name).perform(context)
-        for name in ("experiment", "variant", "record", "namespace")
+        for name in ("experiment", "variant", "record", "namespace", "only")
     )
     experiment = load(experiment_name, variant)
     experiment = told(experiment, known(experiment)).for_graph(realtime=False)
     names = list(STAGES)
+    on_exit = ended
+    if only:
+        part = Part.parse(only, bool(record))
+        experiment, names = part.experiment(experiment), list(part.names)
+        on_exit = ended if part.has_plant else ended_with_plant
     if record:
         experiment = experiment.with_values("plant_simulator", await_recorder=True)
         cycles = experiment.loop().plant.cycles
@@ -58,7 +70,10 @@ def start(context):
     # first the handlers: a node may end at once
     return [
         RegisterEventHandler(OnShutdown(on_shutdown=clean_up)),
-        *(RegisterEventHandler(OnProcessExit(target_action=node, on_exit=ended)) for node in nodes),
+        *(
+            RegisterEventHandler(OnProcessExit(target_action=node, on_exit=on_exit))
+            for node in nodes
+        ),
         *nodes,
     ]
 
@@ -72,6 +87,9 @@ def generate_launch_description():
                 "record", default_value="", description="directory of the recording; empty: none"
             ),
             DeclareLaunchArgument("namespace", default_value="", description="of all nodes"),
+            DeclareLaunchArgument(
+                "only", default_value="", description="NODE,NODE: other hosts run the rest"
+            ),
             OpaqueFunction(function=start),
         ]
     )

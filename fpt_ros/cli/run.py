@@ -23,6 +23,7 @@ from fpt_ros.cli.options import (
 
 if TYPE_CHECKING:
     from fpt_ros.experiments.experiment import Experiment
+    from fpt_ros.nodes.part import Part
     from fpt_ros.nodes.robot import Robot
 
 Composed = Annotated[bool, typer.Option("--composed", help="The five nodes in one process.")]
@@ -54,6 +55,10 @@ Restarted = Annotated[
         "--restarts", metavar="N", min=0, help="Start a killed node again, N times a minute."
     ),
 ]
+Only = Annotated[
+    str,
+    typer.Option(metavar="NODE,NODE", help="A part of the graph: other hosts run the rest."),
+]
 
 
 def run(
@@ -72,6 +77,7 @@ def run(
     states: States = "joint_states",
     efforts: Efforts = "effort_command",
     restarts: Restarted = 3,
+    only: Only = "",
     json: Json = False,
 ) -> None:
     """Run an experiment as a graph of ROS 2 nodes over DDS, a process each.
@@ -94,15 +100,18 @@ def run(
         experiment.loop()  # checks it
     _check_namespace(namespace)
     robot = _robot(no_plant, composed, states, efforts, duration)
+    part = _part(only, composed, record)
     if record is not None:
         check_new_directory(record)
     experiment = warn_about_gain(experiment)
     with tempfile.TemporaryDirectory(prefix="fpt_ros-") as folder:
-        bag = record or Path(folder) / "recording"
+        bag = record or (Path(folder) / "recording" if part is None else None)
         result, failure = run_recorded(
-            experiment, bag, composed, realtime, namespace, robot, restarts
+            experiment, bag, composed, realtime, namespace, robot, restarts, part
         )
-    if result is not None:
+    if result is not None and bag is None:
+        print_json(result) if json else print(_told(result))
+    elif result is not None:
         print_result({**result, "bag": str(record) if record is not None else None}, json)
     elif json and failure is not None:
         print_json(
@@ -121,17 +130,18 @@ def run(
 
 def run_recorded(
     experiment: "Experiment",
-    bag: Path,
+    bag: Path | None,
     composed: bool = False,
     realtime: bool = False,
     namespace: str = "",
     robot: "Robot | None" = None,
     restarts: int = 3,
+    part: "Part | None" = None,
 ) -> tuple[dict[str, Any] | None, Exception | None]:
-    """Run the graph and read its recording.
+    """Run the graph and read its recording; ``None``: it is recorded on another host, if at all.
 
     Returns:
-        The result so far as the recording goes (None: nothing was recorded), and what went wrong.
+        The result so far as the recording goes (None: there is none), and what went wrong.
     """
     from fpt_ros.analysis.recorded import read_summary
     from fpt_ros.cli.output import progress_bar
@@ -162,19 +172,39 @@ def run_recorded(
                 robot,
                 counted,
                 tell=lambda line: print(f"fpt: {line}", file=sys.stderr),
+                part=part,
             )
         except FptError as error:
             failure = error
-    wall = perf_counter() - started
-    try:
-        result = read_summary(bag)
-    except BadInput:
-        return None, failure
     rate = None
     if len(pace) > 1 and pace[-1][0] > pace[0][0]:
         rate = (pace[-1][1] - pace[0][1]) / (pace[-1][0] - pace[0][0])
-    result = {**result, "wall_time": wall, "cycles_per_second": rate, "bag": str(bag)}
-    return {**result, "restarts": counted.total}, failure
+    seen: dict[str, Any] = {"wall_time": perf_counter() - started, "cycles_per_second": rate}
+    seen["restarts"] = counted.total
+    if bag is None:
+        return None if failure else _of_part(experiment, part, pace, seen), failure
+    try:
+        return {**read_summary(bag), **seen, "bag": str(bag)}, failure
+    except BadInput:
+        return None, failure
+
+
+def _of_part(
+    experiment: "Experiment",
+    part: "Part | None",
+    pace: list[tuple[float, int]],
+    seen: dict[str, Any],
+) -> dict[str, Any]:
+    """What is known of a run that is not recorded here."""
+    about = {"experiment": experiment.name, "variant": experiment.variant, "engine": "graph"}
+    nodes = list(part.names) if part is not None else []
+    cycles = pace[-1][1] if pace else 0
+    return {**about, "nodes": nodes, "complete": True, "cycles": cycles, **seen, "bag": None}
+
+
+def _told(result: dict[str, Any]) -> str:
+    name, nodes = f"{result['experiment']} {result['variant']}", ", ".join(result["nodes"])
+    return f"{name}, {nodes}: {result['cycles']} cycles in {result['wall_time']:.1f} s"
 
 
 def _robot(
@@ -190,6 +220,15 @@ def _robot(
     if (states, efforts) != ("joint_states", EFFORT_COMMAND):
         raise BadInput("--states and --efforts are topics of a robot: they go with --no-plant")
     return None
+
+
+def _part(only: str, composed: bool, record: Path | None) -> "Part | None":
+    from fpt_ros.errors import BadInput
+    from fpt_ros.nodes.part import Part
+
+    if only and composed:
+        raise BadInput("--only excludes --composed, which is all nodes in one process")
+    return Part.parse(only, record is not None) if only else None
 
 
 def _check_namespace(namespace: str) -> None:

@@ -4,7 +4,7 @@ from fpt_ros.compensators import COMPENSATORS
 from fpt_ros.cycle.approximate_model import model_parameters
 from fpt_ros.cycle.denoiser import SYNCHRONISED
 from fpt_ros.cycle.limits import PARAMETERS as LIMITS
-from fpt_ros.cycle.stage import CYCLE_TIME, REALTIME, ROBOT
+from fpt_ros.cycle.stage import ANSWERING, REALTIME, ROBOT
 from fpt_ros.cycle.tuned import CONTROLLED
 from fpt_ros.parameters import Parameter, Values, prefixed
 from fpt_ros.transformations import TRANSFORMATIONS
@@ -86,7 +86,7 @@ PARAMETERS = (
     *LIMITS,
     REALTIME,
     ROBOT,
-    CYCLE_TIME,
+    *ANSWERING,
     CONTROLLED,
 )
 

@@ -8,7 +8,7 @@ from fpt_ros.cycle.healing import HEALING, HealingConstants, heal, keep_estimate
 from fpt_ros.cycle.joints import Entrance
 from fpt_ros.cycle.records import Layout
 from fpt_ros.cycle.rows import Commanded, Measured, StateEstimateRow, no_command
-from fpt_ros.cycle.stage import CYCLE_TIME, JOINTS, REALTIME, ROBOT, Input, Stage
+from fpt_ros.cycle.stage import ANSWERING, JOINTS, REALTIME, ROBOT, Input, Stage
 from fpt_ros.denoising.streaming import FILTERS, ORDER, Update
 from fpt_ros.errors import BadInput
 from fpt_ros.laws import Matrix, MutableVector, Vector, helper
@@ -170,7 +170,7 @@ class Denoiser(Stage):
             *own,
             REALTIME,
             ROBOT,
-            CYCLE_TIME,
+            *ANSWERING,
             JOINTS,
         )
 

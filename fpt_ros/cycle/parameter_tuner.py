@@ -4,7 +4,7 @@ from fpt_ros.cycle.approximate_model import model_of, model_parameters
 from fpt_ros.cycle.joints import Entrance
 from fpt_ros.cycle.records import Layout
 from fpt_ros.cycle.rows import NO_DESIRED, TuningRow
-from fpt_ros.cycle.stage import CYCLE_TIME, JOINTS, REALTIME, Input, Stage, indices
+from fpt_ros.cycle.stage import ANSWERING, JOINTS, REALTIME, Input, Stage, indices
 from fpt_ros.cycle.tuned import CONTROLLED, FACTOR, PRECURSOR, WEIGHT
 from fpt_ros.cycle.tuning import (
     NO_COMMAND,
@@ -30,7 +30,7 @@ PARAMETERS = (
     Parameter("precursor", "watch for oscillations of the deformed response", False, live=False),
     Parameter("precursor_guard", "lower the gain while they are there", False),
     REALTIME,
-    CYCLE_TIME,
+    *ANSWERING,
     JOINTS,
     CONTROLLED,
 )

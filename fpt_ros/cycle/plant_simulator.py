@@ -16,7 +16,7 @@ from fpt_ros.cycle.motion import (
 from fpt_ros.cycle.noise import Noise
 from fpt_ros.cycle.records import Layout
 from fpt_ros.cycle.rows import JointStatesRow
-from fpt_ros.cycle.stage import REALTIME, Input, Stage
+from fpt_ros.cycle.stage import AUTOSTART, REALTIME, Input, Stage
 from fpt_ros.cycle.suffered import SUFFERED, Suffered
 from fpt_ros.disturbances import DISTURBANCES
 from fpt_ros.errors import BadInput, Diverged
@@ -74,6 +74,7 @@ STRUCTURE = (
     Parameter("speed", "of the clock in real time", 1.0, above=0.0),
     Parameter("step_cycles", "how long the service step goes on", 1, minimum=1, maximum=1_000_000),
     REALTIME,
+    AUTOSTART,
     Parameter("await_recorder", "do not outrun the recorder", False, live=False),
 )
 

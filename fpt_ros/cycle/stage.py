@@ -40,6 +40,25 @@ CYCLE_TIME = Parameter(
 )
 """Of the stages that answer; derived from the plant's ``dt`` where an experiment is loaded."""
 
+AUTOSTART = Parameter(
+    "autostart",
+    "the node configures and activates itself; else it waits for ros2 lifecycle set",
+    True,
+    live=False,
+)
+"""Declared by the nodes of the loop."""
+
+ENDS_WITH_PLANT = Parameter(
+    "ends_with_plant",
+    "the node ends when the plant's node says that the run is over; for those of other hosts",
+    False,
+    live=False,
+)
+"""Declared by all nodes but the plant's."""
+
+ANSWERING = (CYCLE_TIME, AUTOSTART, ENDS_WITH_PLANT)
+"""Of the stages that answer the plant."""
+
 JOINTS = Parameter(
     "joints",
     "names of the plant's coordinates, in its order; empty: as the first message has them",

@@ -6,7 +6,7 @@ from typing import NamedTuple
 from fpt_ros.cycle.joints import Entrance
 from fpt_ros.cycle.records import Layout
 from fpt_ros.cycle.rows import DesiredRow, Estimated
-from fpt_ros.cycle.stage import CYCLE_TIME, JOINTS, REALTIME, Input, Stage, indices
+from fpt_ros.cycle.stage import ANSWERING, CYCLE_TIME, JOINTS, REALTIME, Input, Stage, indices
 from fpt_ros.errors import BadInput
 from fpt_ros.laws import Indices, MutableVector, Vector, helper
 from fpt_ros.messages.frames import SECOND, Desired, Names, StateEstimate
@@ -46,7 +46,7 @@ PARAMETERS = (
         live=False,
     ),
     REALTIME,
-    CYCLE_TIME,
+    *ANSWERING,
     JOINTS,
 )
 

@@ -1,6 +1,6 @@
 """What an experiment says about itself: the recorder's section of its parameter file."""
 
-from fpt_ros.cycle.stage import REALTIME, ROBOT
+from fpt_ros.cycle.stage import ENDS_WITH_PLANT, REALTIME, ROBOT
 from fpt_ros.parameters import Parameter, Values
 
 NODE = "recorder"
@@ -36,6 +36,7 @@ PARAMETERS = (
     Parameter("await_tuning", "a tuner is in the loop: its topic is part of it", False, live=False),
     REALTIME,
     ROBOT,
+    ENDS_WITH_PLANT,
 )
 
 

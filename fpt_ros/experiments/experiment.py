@@ -209,6 +209,17 @@ def is_path(text: str) -> bool:
     return text.endswith((".yaml", ".yml")) or "/" in text
 
 
+def parameter_files(name: str, variant: str) -> list[Path]:
+    """The files that are read for an experiment, but for those of the package.
+
+    Raises:
+        BadInput: there is no such experiment or variant.
+    """
+    path = _path_of(name)
+    paths = [path, *(_variant_path(path, word) for word in _words(variant))]
+    return [each for each in paths if each.parent != config_directory()]
+
+
 def _check_owner(path: Path, overlay: ParameterFile, experiment: str) -> None:
     """An overlay given by its path is of this experiment.
 

@@ -13,9 +13,9 @@ def main() -> None:
     """Run all nodes until the plant has finished."""
     factories = [
         lambda: DeformerNode(reports=False),
-        lambda: StageNode(ParameterTuner),
-        TrajectoryNode,
-        lambda: StageNode(Denoiser),
+        lambda: StageNode(ParameterTuner, reports=False),
+        lambda: TrajectoryNode(reports=False),
+        lambda: StageNode(Denoiser, reports=False),
         PlantNode,
     ]
     run_process(factories, "composed", __doc__ or "")

@@ -1,5 +1,6 @@
 """Console script ``fpt_deformer``: the node that gives the commands, and may have to stop."""
 
+from collections.abc import Mapping
 from time import monotonic
 
 from diagnostic_msgs.msg import DiagnosticStatus
@@ -10,14 +11,15 @@ from std_srvs.srv import Trigger
 
 from fpt_ros.cycle.fpt_deformer import FptDeformer
 from fpt_ros.cycle.limits import COMMAND_TIMEOUT, STOPPED
-from fpt_ros.errors import Diverged
+from fpt_ros.errors import BadInput, Diverged
 from fpt_ros.messages.frames import SECOND, Command, Frame, JointStates
 from fpt_ros.messages.topics import Topic
 from fpt_ros.nodes.gain_node import GainNode
-from fpt_ros.nodes.process import report_progress, run_process
+from fpt_ros.nodes.process import run_process
 from fpt_ros.nodes.robot import EFFORT_COMMAND
 from fpt_ros.nodes.silence import Measured
 from fpt_ros.nodes.stage_node import CHANGES, StageNode
+from fpt_ros.parameters import Value
 
 E_STOP = "e_stop"
 """A topic (true: stop), and a service of the node; ``RELEASE`` is a service alone."""
@@ -41,14 +43,14 @@ class DeformerNode(StageNode):
     _gain: GainNode | None = None
 
     def __init__(self, reports: bool = True) -> None:
-        """``reports``: whether it tells how many cycles are done, if nobody else does."""
-        super().__init__(FptDeformer)
-        self._reports = reports
+        """``reports``: as of any stage's node."""
+        super().__init__(FptDeformer, reports)
         self._efforts = self.create_publisher(Float64MultiArray, EFFORT_COMMAND, 1)
         self._measured_at = 0.0
         self._measured = Measured()
         self._gain = GainNode(self, self.stage, CHANGES)
         self.warning = self._gain.warning
+        self._laid_down = self._stays_stopped = False
         self.create_service(Trigger, f"~/{E_STOP}", self._on_e_stop)
         self.create_service(Trigger, f"~/{RELEASE}", self._on_release)
         self.create_subscription(Bool, E_STOP, self._on_e_stop_topic, 10)
@@ -79,6 +81,13 @@ class DeformerNode(StageNode):
         if self.stage.values["effort_command"] and isinstance(frame, Command):
             self._efforts.publish(Float64MultiArray(data=list(frame.effort)))
 
+    def _accept(self, changes: Mapping[str, Value]) -> None:
+        if self._laid_down and STOPPED.name in changes:
+            if not changes[STOPPED.name]:
+                raise BadInput(f"{FptDeformer.name} is inactive: activate it (ros2 lifecycle set)")
+            self._stays_stopped = True
+        super()._accept(changes)
+
     def _step(self, frames: list[Frame | None]) -> None:
         try:
             super()._step(frames)
@@ -96,16 +105,23 @@ class DeformerNode(StageNode):
             self._measured_at = monotonic()
             self.deadline = self._measured_at + timeout
 
-    def housekeeping(self) -> None:
-        """Progress, where it is not the plant that tells it."""
-        super().housekeeping()
-        if self._reports:
-            report_progress(self.cycles_done)
-
     def close(self) -> None:
         """In real time the last command is the safe effort, whatever the reason of the end."""
         if self._realtime and self._matcher.acted >= 0 and self.context.ok():
             self._command_safe_effort()
+
+    def take_up(self) -> None:
+        """Active: it controls, unless an emergency stop was asked for."""
+        super().take_up()
+        if self._laid_down:
+            self._laid_down = False
+            self._stop(self._stays_stopped)
+
+    def lay_down(self) -> None:
+        """Inactive: the safe effort is commanded."""
+        self._stays_stopped = self.get_parameter(STOPPED.name).value is True
+        self._stop(True)
+        self._laid_down = True
 
     def on_deadline(self) -> None:
         """The loop is silent: nothing is measured any more, or another node does not answer."""

@@ -21,6 +21,7 @@ from fpt_ros.experiments.description import NODE as RECORDER
 from fpt_ros.experiments.experiment import Experiment
 from fpt_ros.nodes import cores, doctor, run_folder, shared_memory
 from fpt_ros.nodes.child import Child, end, started
+from fpt_ros.nodes.part import Part
 from fpt_ros.nodes.restarts import Restarts
 from fpt_ros.nodes.robot import Robot
 
@@ -41,6 +42,7 @@ def run(
     robot: Robot | None = None,
     restarts: Restarts | None = None,
     tell: Callable[[str], None] = lambda line: None,
+    part: Part | None = None,
 ) -> None:
     """Run an experiment as processes over DDS.
 
@@ -54,6 +56,7 @@ def run(
         robot: in the place of the plant's node; what it does follows the wall clock.
         restarts: counts them, and says how many there may be.
         tell: is told of each restart.
+        part: the nodes of this host, where others run the rest.
 
     Raises:
         BadInput: a node refused its parameters, or this machine has no DDS to offer.
@@ -66,7 +69,10 @@ def run(
     if robot is not None:
         experiment = robot.experiment(experiment)
     recorded = record is not None
-    experiment = experiment.with_values(PlantSimulator.name, await_recorder=recorded)
+    if part is None or recorded:  # else the recorder may be on another host
+        experiment = experiment.with_values(PlantSimulator.name, await_recorder=recorded)
+    if part is not None:
+        experiment = part.experiment(experiment)
     if record is not None:
         cycles, directory = experiment.loop().plant.cycles, str(record.absolute())
         cycles = cycles if robot is None else 0
@@ -81,7 +87,7 @@ def run(
             arguments += ["-r", f"__ns:=/{namespace.strip('/')}"]
         with shared_memory.left_as_found():
             core = None if composed or realtime else cores.idlest()
-            graph = _Graph(arguments, composed, recorded, core, progress, robot, folder)
+            graph = _Graph(arguments, composed, recorded, core, progress, robot, folder, part)
             graph.restarts, graph.tell = restarts or Restarts(), tell
             asyncio.run(graph.run())
 
@@ -98,6 +104,7 @@ class _Graph:
         progress: Callable[[int], None] | None,
         robot: Robot | None,
         folder: Path,
+        part: Part | None,
     ) -> None:
         self.restarts = Restarts()
         self.tell: Callable[[str], None] = lambda line: None
@@ -105,6 +112,7 @@ class _Graph:
         self._descriptors: dict[str, dict[str, int]] = {}
         self._arguments = arguments
         self._robot = robot
+        self._part = part
         self._recorded = recorded
         self._core = core
         self._loop_names = ["composed"] if composed else list(reversed(STAGES))
@@ -112,6 +120,9 @@ class _Graph:
         if robot is not None:
             self._loop_names.remove(PlantSimulator.name)
             self._plant = FptDeformer.name
+        if part is not None:
+            self._loop_names = [name for name in self._loop_names if name in part.names]
+            self._plant = self._loop_names[-1] if self._loop_names else RECORDER
         self._progress = progress
         self._children: dict[str, Child] = {}
         self._stop = asyncio.Event()
@@ -168,7 +179,8 @@ class _Graph:
                 for child in ended:
                     if child.status and child.status > 0:
                         return child.failure()
-                if any(child.name == self._plant and not child.status for child in ended):
+                over = [each for each in ended if each.name == self._plant or self._part]
+                if any(not child.status for child in over):
                     return None
                 for child in ended:
                     if not child.status:
@@ -182,6 +194,8 @@ class _Graph:
                     self._began = self._began or clock.time()
                     if clock.time() - self._began >= (self._robot.lasts or math.inf):
                         return None
+                if self._part is not None and not self._cycle:
+                    self._moved = clock.time()  # the other hosts may begin later
                 if clock.time() - self._moved > STALL:
                     return RunFailed(
                         f"no cycle was completed for {STALL:g} s: is DDS working between the "

@@ -5,6 +5,7 @@ depend on the machine's speed. Real time: the cycle ends when the wall clock say
 command acts, or the safe effort where it is older than ``command_timeout``.
 """
 
+import sys
 from time import monotonic, time_ns
 from typing import Any
 
@@ -20,6 +21,7 @@ from fpt_ros.nodes.qos import heard_qos
 from fpt_ros.nodes.recorded_until import RECORDED_UNTIL, TIME, decode_time
 from fpt_ros.nodes.reset import Reset
 from fpt_ros.nodes.run_control import RunControl
+from fpt_ros.nodes.run_over import announce, announcer
 from fpt_ros.nodes.stage_node import ParameterisedNode
 from fpt_ros.nodes.timing import Timing
 
@@ -27,10 +29,9 @@ WINDOW = DEPTH * 3 // 4
 """Cycles that the loop may be ahead of the recorder: less than the history that publishers keep."""
 
 AGAIN = 0.5
-"""Seconds without a command after which, in lockstep, the measurement is published once more."""
+"""Seconds without a command after which the measurement is published once more, in lockstep."""
 
-PAUSED, FIRSTS = "paused", "firsts"
-"""Kept: whether the run is paused; the cycles with which it has begun again."""
+PAUSED = "paused"
 
 LAST_REPORT = Duration(seconds=2)
 """How long the last report waits for those who hear it, the recorder among them."""
@@ -45,7 +46,7 @@ class PlantNode(ParameterisedNode):
         self._realtime = stage.values["realtime"] is True
         self._awaits_recorder = stage.values["await_recorder"] is True
         self._decode = Codec(COMMAND).decode
-        self._cycle = self._first = 0
+        self._cycle = 0
         self._origin = 0
         self._recorded = -1
         self._stamp = -1
@@ -55,8 +56,9 @@ class PlantNode(ParameterisedNode):
         self._sent_again = 0.0
         self._next_tick = 0.0
         self._control = RunControl(self, self._step_cycles, self._end_pause, self._want_reset)
-        self._reset = Reset(self)
-        self._stands_still = self._between = False
+        self._reset = Reset(self, self._kept)
+        self._stands_still = self._laid_down = self._is_recorded = False
+        self._run_over = announcer(self)
         qos = heard_qos(self._realtime)
         self.subscribe_raw(COMMAND.name, COMMAND.type, qos, self._on_command)
         if self._awaits_recorder:
@@ -80,16 +82,26 @@ class PlantNode(ParameterisedNode):
         self._origin = self._stamp - self._cycle * self.stage.cycle_time
         self._timing.sent()
         self._control.paused = self._kept.aside.get(PAUSED) is True
-        firsts = [0, *self._kept.aside.get(FIRSTS, ())]
-        self._first = max(first for first in firsts if first <= self._cycle)
-        self._reset.is_wanted = firsts[-1] > self._cycle  # killed while it asked the others
+        self._reset.go_on(self._cycle)
         if self._realtime:  # until a command comes in time
             self._command = self.stage.safe_command(self._stamp - self.stage.timeout)
 
-    def begin(self) -> None:
+    def take_up(self) -> None:
         """Publish cycle 0, where a recorder is awaited as soon as it says that it has begun."""
-        if not (self._kept.cycles or self._awaits_recorder):
+        if self._laid_down:
+            self._control.resume()
+        elif self._stamp < 0 and (self._is_recorded or not self._awaits_recorder):
             self._start()  # it waits, latched, for whoever is not there yet
+
+    def lay_down(self) -> None:
+        """A pause."""
+        self._laid_down = True
+        self._control.pause()
+
+    def retire(self) -> None:
+        """The run ends with this cycle."""
+        self.finished = self._stamp < 0
+        self._control.stop()
 
     def _start(self) -> None:
         self._origin = time_ns() if self._realtime else 0
@@ -98,7 +110,7 @@ class PlantNode(ParameterisedNode):
     def _publish_cycle(self) -> None:
         self._stamp = self._origin + self._cycle * self.stage.cycle_time
         self._timing.sent()
-        self.send(self.stage.measure(self._stamp, self._cycle - self._first))
+        self.send(self.stage.measure(self._stamp, self._cycle - self._reset.first))
 
     def _on_command(self, data: bytes) -> bool:
         try:
@@ -114,19 +126,15 @@ class PlantNode(ParameterisedNode):
             self._start_clock()
         if command.stamp != self._stamp or command is self._command:
             return False
-        repeated = self._command is not None and self._command.stamp == command.stamp
-        self._command = command
+        before, self._command = self._command, command
         if self._realtime:
             self._start_clock()
-        elif not repeated:
+        elif before is None or before.stamp != command.stamp:
             self._end_cycle(command)
         return True
 
     def _start_clock(self) -> None:
-        """Real time begins when the first cycle has gone around, and is recorded.
-
-        All are there then. It goes on where somebody commands.
-        """
+        """Real time begins, or goes on, when a cycle has gone around; the first one is recorded."""
         if self._clock_runs or self._command is None:
             return
         if self._recorded >= self._stamp or self._cycle or not self._awaits_recorder:
@@ -150,10 +158,10 @@ class PlantNode(ParameterisedNode):
     def _end_cycle(self, command: Command) -> None:
         if self._pending:
             self.apply_changes(self._stamp)
-        began = self._origin + self._first * self.stage.cycle_time
+        began = self._origin + self._reset.first * self.stage.cycle_time
         self.stage.advance(command, self._stamp - began)
         self._cycle += 1
-        ended = self._cycle - self._first >= self.stage.cycles and not self._reset.is_wanted
+        ended = self._cycle - self._reset.first >= self.stage.cycles and not self._reset.is_wanted
         if ended or self._control.stopped:
             self._over = True
             self.deadline = None
@@ -176,7 +184,8 @@ class PlantNode(ParameterisedNode):
     def _begin_cycle(self) -> None:
         """The next cycle, if the run is not paused, and does not begin again."""
         if self._reset.is_wanted:
-            self._ask_to_forget()
+            self._reset.ask(self._cycle)
+            self.deadline = None
         elif self._control.may_begin():
             self._publish_cycle()
         else:
@@ -193,33 +202,23 @@ class PlantNode(ParameterisedNode):
 
     def _want_reset(self) -> str:
         """The run is to begin again; why it cannot, or nothing."""
-        if self._over:
-            return "the run is over"
-        if self._stamp < 0:
-            return "the run has not begun yet"
+        if self._over or self._stamp < 0:
+            return "the run is over" if self._over else "the run has not begun yet"
         self._reset.is_wanted = True
         if self._stands_still:
-            self._ask_to_forget()
+            self._reset.ask(self._cycle)
         return ""
-
-    def _ask_to_forget(self) -> None:
-        """Between two cycles: the others are asked, and all go on when they have answered."""
-        if not self._between:
-            self._between, self.deadline = True, None
-            self._kept.aside[FIRSTS] = [*self._kept.aside.get(FIRSTS, ()), self._cycle]
-            self._kept.save()
 
     def _all_acted(self) -> bool:
         """Whether no other node will act on a cycle of before; in real time an answer may lack."""
-        answered = self._command is not None and self._command.stamp == self._stamp
-        return answered or monotonic() - self._timing.latest > AGAIN
+        newest = self._command.stamp if self._command is not None else -1
+        return newest == self._stamp or monotonic() - self._timing.latest > AGAIN
 
     def _begin_again(self) -> None:
         """All others have forgotten; parameters and stamps go on."""
-        self._between = self._clock_runs = False
+        self._clock_runs, self._command = False, None
         self.stage.begin_again()
-        self._first, self._command = self._cycle, None
-        self._reset.tell(self._origin + self._cycle * self.stage.cycle_time)
+        self._reset.tell(self._cycle, self._origin + self._cycle * self.stage.cycle_time)
         if not self._stands_still:
             self._begin_cycle()
 
@@ -235,7 +234,8 @@ class PlantNode(ParameterisedNode):
         except MalformedMessage as error:
             self.ignore(str(error))
             return False
-        if self._stamp < 0:
+        self._is_recorded = True
+        if self._stamp < 0 and self.active:
             self._start()
         self._recorded = max(self._recorded, until)
         if self._realtime:
@@ -256,9 +256,9 @@ class PlantNode(ParameterisedNode):
         if self._kept.aside.get(PAUSED, False) != self._control.paused:
             self._kept.aside[PAUSED] = self._control.paused
             self._kept.save()
-        if self._between and self._all_acted() and self._reset.is_done():
+        if self._reset.between and self._all_acted() and self._reset.is_done():
             self._begin_again()
-        still = self._held_back or self.finished or self._stands_still or self._between
+        still = self._held_back or self.finished or self._stands_still or self._reset.between
         waits = self._timing.latest > 0.0 and not (self._realtime or still)
         if waits and monotonic() - max(self._timing.latest, self._sent_again) > AGAIN:
             self._sent_again = monotonic()
@@ -269,6 +269,12 @@ class PlantNode(ParameterisedNode):
                 f"another node publishes {self.resolve_topic_name(JOINT_STATES.name)} in this ROS "
                 "domain: use another ROS_DOMAIN_ID or --namespace"
             )
+
+    def close(self) -> None:
+        """Those of other hosts end too."""
+        if self.context.ok():
+            stopped = "" if self.finished else f"stopped in cycle {self._cycle}"
+            announce(self._run_over, str(sys.exc_info()[1] or stopped))
 
     def _report_last(self) -> None:
         """Diagnostics of the last cycles, for which no second is left; this process ends next."""
@@ -281,10 +287,8 @@ class PlantNode(ParameterisedNode):
         those since the last report, and the distribution of all (:mod:`fpt_ros.runs.latency`).
         """
         t = (self._stamp - self._origin) / SECOND
-        values: dict[str, object] = {"time [s]": f"{t:.3f}"}
-        values |= self._timing.report(self._realtime)
-        mode = "real time" if self._realtime else "lockstep"
-        mode += ", paused" if self._stands_still else ""
+        values = {"time [s]": f"{t:.3f}", **self._timing.report(self._realtime)}
+        mode = ("real time" if self._realtime else "lockstep") + ", paused" * self._stands_still
         return f"cycle {self._cycle} of {self.stage.cycles}, {mode}", values
 
 

@@ -65,7 +65,7 @@ def run_nodes(
     nodes: list[LoopNode] = []
     try:
         for factory in factories:
-            nodes.append(factory())
+            nodes.append(_made(factory))
         spin(nodes, lambda: bool(stop.signal) or not context.ok(), context)
     finally:
         for node in nodes:
@@ -73,6 +73,20 @@ def run_nodes(
         for node in nodes:
             node.destroy_node()
         try_shutdown()
+
+
+def _made(factory: Callable[[], LoopNode]) -> LoopNode:
+    """A node.
+
+    Raises:
+        BadInput: of the node, or of the middleware (no such security, no memory).
+    """
+    from rclpy.impl.implementation_singleton import rclpy_implementation
+
+    try:
+        return factory()
+    except rclpy_implementation.RCLError as error:
+        raise BadInput(f"the node cannot be made: {' '.join(str(error).split())}") from error
 
 
 def _usage(name: str, about: str) -> str:

@@ -35,6 +35,7 @@ from fpt_ros.nodes.recorded_cycles import RecordedCycles
 from fpt_ros.nodes.recorded_run import last_change, reason_to_end, recorded_run
 from fpt_ros.nodes.recorded_until import BEGUN, RECORDED_UNTIL, TIME, encode_time
 from fpt_ros.nodes.ros_parameters import declare
+from fpt_ros.nodes.run_over import end_with_plant
 from fpt_ros.nodes.side_topics import ROSOUT, SIDE_DEPTH, SIDE_TOPICS
 from fpt_ros.nodes.snapshot import Snapshot
 from fpt_ros.nodes.stage_node import CHANGES
@@ -61,6 +62,7 @@ class Recorder(LoopNode):
     def __init__(self) -> None:
         super().__init__(description.NODE)
         values = declare(self, description.parameters)
+        end_with_plant(self, values)
         self._lockstep = values.get("realtime") is not True
         self._robot = values.get("robot") is True
         self._cycles = integer(values, "cycles")
@@ -82,10 +84,9 @@ class Recorder(LoopNode):
             aside=True,
             again=bool(self._said_before),
         )
-        self._acknowledged = 0
         self._lost: RunFailed | None = None
         self._snapshot: Snapshot | None = None
-        self._started = False
+        self._started, self._acknowledged = False, 0
         self._side_subscriptions: list[tuple[Subscription, Callable[[bytes], None]]] = []
         self._until = self.create_publisher(message_class(TIME), RECORDED_UNTIL, loop_qos(1))
         until = self.resolve_topic_name(RECORDED_UNTIL)
@@ -246,11 +247,10 @@ class Recorder(LoopNode):
         Raises:
             RunFailed: the recording could not be written to the end.
         """
-        error = sys.exc_info()[1]
         self._take_what_has_come()
         for message in self._turns.rest():
             self._write(*message)
-        reason = reason_to_end() or (str(error) if error is not None else "")
+        reason = reason_to_end() or str(sys.exc_info()[1] or "")
         if self._lost is not None:
             raise self._lost
         done = len(self._recorded.stamps)

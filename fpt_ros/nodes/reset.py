@@ -13,12 +13,16 @@ from std_srvs.srv import Trigger
 from fpt_ros.bags import begun_again
 from fpt_ros.messages.frames import SECOND
 from fpt_ros.messages.topics import TUNING
+from fpt_ros.nodes.kept import Kept
 from fpt_ros.nodes.loop_node import message_class
 from fpt_ros.nodes.qos import loop_qos
 from fpt_ros.nodes.recorded_until import encode_time
 
 BEGIN_AGAIN = "begin_again"
 """Service of each node that answers the plant: the next cycle is its first."""
+
+FIRSTS = "firsts"
+"""Kept: the cycles with which the run has begun again."""
 
 NODES = ("denoiser", "trajectory_generator", "fpt_deformer")
 TUNER = "parameter_tuner"
@@ -32,10 +36,14 @@ class Reset:
 
     Attributes:
         is_wanted: from the request on until all have forgotten.
+        between: the plant stands between two cycles, and asks.
+        first: number of the cycle with which the run has begun.
     """
 
-    def __init__(self, node: Node) -> None:
-        self.is_wanted = False
+    def __init__(self, node: Node, kept: Kept) -> None:
+        self.is_wanted = self.between = False
+        self.first = 0
+        self._kept = kept
         self._node = node
         self._clients = {
             name: node.create_client(Trigger, f"{name}/{BEGIN_AGAIN}") for name in (*NODES, TUNER)
@@ -44,6 +52,19 @@ class Reset:
         self._told = node.create_publisher(kind, begun_again.TOPIC, loop_qos())
         self._left: dict[str, Any] | None = None
         self._asked = 0.0
+
+    def go_on(self, cycle: int) -> None:
+        """In the place of a plant that was killed, in this cycle; perhaps while it asked."""
+        firsts = [0, *self._kept.aside.get(FIRSTS, ())]
+        self.first = max(first for first in firsts if first <= cycle)
+        self.is_wanted = firsts[-1] > cycle
+
+    def ask(self, cycle: int) -> None:
+        """All are to forget before this cycle."""
+        if not self.between:
+            self.between = True
+            self._kept.aside[FIRSTS] = [*self._kept.aside.get(FIRSTS, ()), cycle]
+            self._kept.save()
 
     def is_done(self) -> bool:
         """Ask all, at the first call; whether all have answered. Called now and then."""
@@ -66,7 +87,8 @@ class Reset:
         self._left, self.is_wanted = None, False
         return True
 
-    def tell(self, stamp: int) -> None:
-        """The cycle with this stamp [ns] is the first one."""
+    def tell(self, cycle: int, stamp: int) -> None:
+        """Say that the run begins with a cycle, of this stamp [ns]."""
+        self.first, self.between = cycle, False
         self._told.publish(encode_time(stamp))
         self._node.get_logger().info(f"the run begins again at t = {stamp / SECOND:.9g} s")

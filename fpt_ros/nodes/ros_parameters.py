@@ -58,9 +58,11 @@ def _declare_one(node: Node, parameter: Parameter) -> Value | None:
     default = parameter.default
     kind = _TYPES[parameter.kind]
     try:
-        # an empty list has no type in ROS: declare the type alone
-        start = kind if default is None or default == [] else default
-        node.declare_parameter(parameter.name, start, descriptor(parameter))
+        if default == []:
+            _declare_empty(node, parameter, kind)
+        else:
+            start = kind if default is None else default
+            node.declare_parameter(parameter.name, start, descriptor(parameter))
         value = node.get_parameter(parameter.name).value
     except ParameterUninitializedException:
         return default
@@ -79,6 +81,22 @@ def _declare_one(node: Node, parameter: Parameter) -> Value | None:
     return parameter.check(list(value) if kind.value >= 5 else value, node.get_name())
 
 
+def _declare_empty(node: Node, parameter: Parameter, kind: RosParameter.Type) -> None:
+    """Declare a list that is empty by default, which has no type in ROS.
+
+    It is declared by its type alone and then set: of a node with a parameter that is not set ROS
+    tells no values at all where all are asked for, as by ``ros2 param dump``.
+    """
+    described = descriptor(parameter)
+    described.read_only = False
+    node.declare_parameter(parameter.name, kind, described)
+    try:
+        node.get_parameter(parameter.name)
+    except ParameterUninitializedException:
+        node.set_parameters([RosParameter(parameter.name, kind, [])])
+    node.set_descriptor(parameter.name, descriptor(parameter))
+
+
 def _hint(parameter: Parameter) -> str:
     return " (ROS wants a decimal point: write 1.0, not 1)" if "float" in parameter.kind else ""
 
@@ -86,6 +104,7 @@ def _hint(parameter: Parameter) -> str:
 def descriptor(parameter: Parameter) -> ParameterDescriptor:
     """What ``ros2 param describe`` shows."""
     result = ParameterDescriptor(
+        type=_TYPES[parameter.kind].value,
         description=parameter.text + (f" [{parameter.unit}]" if parameter.unit else ""),
         additional_constraints=parameter.describe_valid(),
         read_only=not parameter.live,

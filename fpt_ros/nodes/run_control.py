@@ -42,15 +42,28 @@ class RunControl:
         self._left = max(0, self._left - 1)
         return True
 
-    def _on_pause(self, request: Trigger.Request, answer: Trigger.Response) -> Trigger.Response:
+    def pause(self) -> None:
+        """Stand still after this cycle."""
         self.paused, self._left = True, 0
+
+    def resume(self) -> None:
+        """Go on."""
+        self.paused = False
+        self._go_on()
+
+    def stop(self) -> None:
+        """End the run with this cycle."""
+        self.stopped = True
+        self.resume()
+
+    def _on_pause(self, request: Trigger.Request, answer: Trigger.Response) -> Trigger.Response:
+        self.pause()
         return _answer(answer, "paused after this cycle")
 
     def _on_resume(self, request: Trigger.Request, answer: Trigger.Response) -> Trigger.Response:
         if not self.paused:
             return _answer(answer, "it was not paused")
-        self.paused = False
-        self._go_on()
+        self.resume()
         return _answer(answer, "goes on")
 
     def _on_step(self, request: Trigger.Request, answer: Trigger.Response) -> Trigger.Response:
@@ -60,9 +73,7 @@ class RunControl:
         return _answer(answer, f"{self._left} cycles more")
 
     def _on_stop(self, request: Trigger.Request, answer: Trigger.Response) -> Trigger.Response:
-        self.stopped = True
-        self.paused = False
-        self._go_on()
+        self.stop()
         return _answer(answer, "the run ends with this cycle")
 
     def _on_reset(self, request: Trigger.Request, answer: Trigger.Response) -> Trigger.Response:

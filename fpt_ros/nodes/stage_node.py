@@ -10,16 +10,18 @@ from std_srvs.srv import Trigger
 
 from fpt_ros.cycle.arrivals import Arrivals
 from fpt_ros.cycle.matcher import Matcher
-from fpt_ros.cycle.stage import Stage
+from fpt_ros.cycle.stage import AUTOSTART, Stage
 from fpt_ros.errors import BadInput
 from fpt_ros.messages.cdr import Codec, MalformedMessage
 from fpt_ros.messages.frames import SECOND, Frame
 from fpt_ros.messages.topics import JOINT_STATES, Topic
 from fpt_ros.nodes.kept import Kept, KeptCycle
-from fpt_ros.nodes.loop_node import LoopNode
+from fpt_ros.nodes.managed import ManagedNode
+from fpt_ros.nodes.process import report_progress
 from fpt_ros.nodes.qos import LATEST, heard_qos, loop_qos, sensor_qos
 from fpt_ros.nodes.reset import BEGIN_AGAIN
 from fpt_ros.nodes.ros_parameters import declare, watch
+from fpt_ros.nodes.run_over import end_with_plant
 from fpt_ros.parameters import Value
 
 CHANGES = "parameter_changes"
@@ -29,7 +31,7 @@ FORGETS = "forgets"
 """Kept: stamp of the cycle after which all that was remembered counts no more."""
 
 
-class ParameterisedNode(LoopNode):
+class ParameterisedNode(ManagedNode):
     """A node that holds a stage; its live parameters change the stage at the next cycle."""
 
     def __init__(self, kind: type[Stage]) -> None:
@@ -74,6 +76,12 @@ class ParameterisedNode(LoopNode):
     def stamp(self) -> int:
         """Of the latest cycle [ns]."""
         raise NotImplementedError
+
+    def begin(self) -> None:
+        """It starts itself, where nobody else is to."""
+        super().begin()
+        if self.stage.values[AUTOSTART.name]:
+            self.start_itself()
 
     def _accept(self, changes: Mapping[str, Value]) -> None:
         """Try a change on a copy, keep it for the next cycle boundary.
@@ -134,8 +142,12 @@ class StageNode(ParameterisedNode):
     message that it cannot use (other bytes, a joint that is not there) is told once and ignored.
     """
 
-    def __init__(self, kind: type[Stage]) -> None:
+    def __init__(self, kind: type[Stage], reports: bool = True) -> None:
+        """``reports``: whether it tells how many cycles are done, if nobody else does."""
         super().__init__(kind)
+        self._reports = reports
+        self._deaf = not self.stage.values[AUTOSTART.name]
+        end_with_plant(self, self.stage.values)
         inputs = self._inputs = self.stage.inputs
         realtime = bool(self.stage.values.get("realtime", False))
         cycle_time = round(float(self.stage.values.get("cycle_time", 0.0)) * SECOND)
@@ -172,11 +184,27 @@ class StageNode(ParameterisedNode):
     def heard(self, topic: Topic, frame: Frame) -> None:
         """Called with each message that can be used, before its cycle is looked for."""
 
+    def take_up(self) -> None:
+        """Active: it answers. In lockstep what it has missed is said again."""
+        self._deaf = False
+
+    def lay_down(self) -> None:
+        """Inactive: it does not hear. The loop waits; in real time the safe effort is commanded."""
+        self._deaf = True
+
+    def housekeeping(self) -> None:
+        """Progress, where it is not the plant that tells it."""
+        super().housekeeping()
+        if self._reports:
+            report_progress(self.cycles_done)
+
     def _receiver(self, index: int, topic: Topic) -> Callable[[bytes], bool]:
         take, decode = self._matcher.take, Codec(topic).decode
         arrivals = Arrivals() if self._robot and topic is JOINT_STATES else None
 
         def receive(data: bytes) -> bool:
+            if self._deaf:
+                return False
             try:
                 frame = self.stage.admit(topic, decode(data))
             except (MalformedMessage, BadInput) as error:

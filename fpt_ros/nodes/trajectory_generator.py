@@ -9,8 +9,9 @@ from fpt_ros.trajectories.live import LIVE
 class TrajectoryNode(StageNode):
     """The trajectory generator; with ``trajectory: live`` it listens to a motion."""
 
-    def __init__(self) -> None:
-        super().__init__(TrajectoryGenerator)
+    def __init__(self, reports: bool = True) -> None:
+        """``reports``: as of any stage's node."""
+        super().__init__(TrajectoryGenerator, reports)
         self._motion = None
         if self.stage.trajectory is LIVE:
             from fpt_ros.nodes.live_motion import LiveMotion

@@ -13,6 +13,7 @@ from fpt_ros.errors import BadInput
 from fpt_ros.experiments.experiment import Experiment, is_path, load
 from fpt_ros.experiments.sections import SECTIONS
 from fpt_ros.parameters import Parameter, Value
+from fpt_ros.sweep.files import texts_of
 from fpt_ros.sweep.grid import Axis, Space, parse, values
 from fpt_ros.sweep.job import Job
 from fpt_ros.sweep.metric import metrics_of
@@ -76,7 +77,8 @@ def define(
     axes = [_checked(axis, experiment, lists) for axis in axes]
     space = Space(tuple(axes), random or 0, seed if random else 0)
     chosen = metrics_of(experiment.loop(), metrics)
-    job = Job(name, variant, tuple(settings), duration, space, tuple(lists.items()), chosen)
+    files = texts_of(name, variant)
+    job = Job(name, variant, tuple(settings), duration, space, tuple(lists.items()), chosen, files)
     definition = {
         "experiment": name,
         "variant": variant,

@@ -27,6 +27,7 @@ class Job:
         space: the points.
         lists: ``NODE.PARAM`` of which single elements are varied, and the whole list.
         metrics: columns of the results.
+        files: path and text of the parameter files that are not the package's.
     """
 
     name: str
@@ -36,6 +37,7 @@ class Job:
     space: Space
     lists: tuple[tuple[str, tuple[float, ...]], ...]
     metrics: tuple[str, ...]
+    files: tuple[tuple[str, str], ...] = ()
 
     @property
     def columns(self) -> list[str]:

@@ -15,6 +15,7 @@ from fpt_ros.experiments import description
 from fpt_ros.experiments.experiment import Experiment
 from fpt_ros.experiments.sections import SECTIONS
 from fpt_ros.parameters import Parameter, Value, resolve
+from fpt_ros.sweep.files import at_hand
 from fpt_ros.sweep.grid import Point, is_number
 from fpt_ros.sweep.job import Job
 
@@ -120,7 +121,7 @@ def experiments_of(job: Job) -> Experiments:
     if found is None:
         if len(_known) >= JOBS:
             _known.pop(next(iter(_known)))
-        found = _known[key] = Experiments(job)
+        found = _known[key] = Experiments(at_hand(job))
     return found
 
 
