@@ -4,6 +4,7 @@ import asyncio
 import errno
 import hmac
 import logging
+import os
 import secrets
 import signal
 import webbrowser
@@ -33,6 +34,9 @@ POLL = 100
 
 LASTS = 7 * 24 * 3600
 """Seconds for which a page that has lost its server for a while may come back."""
+
+NICE = 10
+"""The loop goes first, as it does before the recorder."""
 
 LAST_PICTURE = 0.1
 """Seconds for what has begun when the end comes."""
@@ -85,6 +89,7 @@ def serve(host: str, port: int, opens: bool, tell: Callable[[str], None]) -> Non
     Raises:
         BadInput: nobody can listen there.
     """
+    os.nice(NICE)
     settings.perform_document_validation = False  # the tests look at the page itself
     logging.getLogger("tornado.access").setLevel(logging.ERROR)
     logging.getLogger("bokeh").setLevel(logging.ERROR)
