@@ -35,6 +35,7 @@ from fpt_ros.cli import (
     soak,
     sweep,
     tune,
+    watch,
 )
 from fpt_ros.errors import FptError
 
@@ -80,6 +81,7 @@ COMMANDS: tuple[tuple[str, Callable[..., Any], str], ...] = (
     ("e-stop", control.e_stop, ""),
     ("reproduce", reproduce.reproduce, "thesis"),
     ("demo", demo.demo, "analysis"),
+    ("watch", watch.watch, "analysis"),
 )
 """Name, function, and the extra of the installation without which it cannot work."""
 

@@ -40,12 +40,25 @@ NAME_TO_COME = "_NODE_NAME_UNKNOWN_"
 PATIENCE = 30.0
 """Seconds that a node may take to be found, and to answer."""
 
+PARAMETER_SERVICES = (
+    (ListParameters, "list_parameters"),
+    (DescribeParameters, "describe_parameters"),
+    (GetParameterTypes, "get_parameter_types"),
+    (GetParameters, "get_parameters"),
+    (SetParametersAtomically, "set_parameters_atomically"),
+)
+"""Of every node."""
+
 
 class Graph:
     """The nodes of one namespace, as somebody outside sees them."""
 
-    def __init__(self, context: Context, namespace: str) -> None:
-        self._node = rclpy.create_node("fpt", namespace=namespace or None, context=context)
+    def __init__(self, context: Context, namespace: str, patience: float = PATIENCE) -> None:
+        self._patience = patience
+        self._clients: dict[str, Any] = {}
+        self._node = rclpy.create_node(
+            "fpt", namespace=namespace or None, context=context, enable_rosout=False
+        )
         self._executor = SingleThreadedExecutor(context=context)
         self._executor.add_node(self._node)
 
@@ -60,23 +73,31 @@ class Graph:
         Raises:
             RunFailed: nobody offers it, or nobody answers.
         """
-        client = self._node.create_client(kind, name)
-        try:
-            deadline = monotonic() + PATIENCE
-            while not client.service_is_ready():
-                self._executor.spin_once(timeout_sec=0.02)
-                if monotonic() > deadline:
-                    raise RunFailed(
-                        f"nobody offers {self._node.resolve_service_name(name)}: is the graph "
-                        "running, in this ROS_DOMAIN_ID and --namespace?"
-                    )
-            future = client.call_async(request)
-            self._executor.spin_until_future_complete(future, timeout_sec=PATIENCE)
-            if not future.done():
-                raise RunFailed(f"{self._node.resolve_service_name(name)} gives no answer")
-            return future.result()
-        finally:
-            self._node.destroy_client(client)
+        client = self._client(kind, name)
+        deadline = monotonic() + self._patience
+        while not client.service_is_ready():
+            self._executor.spin_once(timeout_sec=0.02)
+            if monotonic() > deadline:
+                raise RunFailed(
+                    f"nobody offers {self._node.resolve_service_name(name)}: is the graph "
+                    "running, in this ROS_DOMAIN_ID and --namespace?"
+                )
+        future = client.call_async(request)
+        self._executor.spin_until_future_complete(future, timeout_sec=self._patience)
+        if not future.done():
+            client.remove_pending_request(future)
+            raise RunFailed(f"{self._node.resolve_service_name(name)} gives no answer")
+        return future.result()
+
+    def prepare(self, node: str) -> None:
+        """Begin to look for the services of a node's parameters: then they are there when asked."""
+        for kind, service in PARAMETER_SERVICES:
+            self._client(kind, f"{node}/{service}")
+
+    def _client(self, kind: Any, name: str) -> Any:
+        if name not in self._clients:
+            self._clients[name] = self._node.create_client(kind, name)
+        return self._clients[name]
 
     def nodes(self) -> list[str]:
         """Those of the loop that are there.
@@ -84,7 +105,7 @@ class Graph:
         Raises:
             RunFailed: there is none.
         """
-        deadline, found = monotonic() + PATIENCE, 0.0
+        deadline, found = monotonic() + self._patience, 0.0
         while monotonic() < deadline and not (found and monotonic() > found + FURTHER):
             here = self._here()
             if self._is_whole(here):

@@ -19,6 +19,7 @@ from fpt_ros.nodes.kept import Kept, KeptCycle
 from fpt_ros.nodes.managed import ManagedNode
 from fpt_ros.nodes.process import report_progress
 from fpt_ros.nodes.qos import LATEST, heard_qos, loop_qos, sensor_qos
+from fpt_ros.nodes.recent import Recent
 from fpt_ros.nodes.reset import BEGIN_AGAIN
 from fpt_ros.nodes.ros_parameters import declare, watch
 from fpt_ros.nodes.run_over import end_with_plant
@@ -45,6 +46,7 @@ class ParameterisedNode(ManagedNode):
         self.set_parameters([RosParameter(name, value=value) for name, value in known.items()])
         self._changes = self.create_publisher(ParameterEvent, CHANGES, loop_qos())
         self._publish = self.advertise(kind.output) if self.publishes else None
+        self._recent = Recent(self, kind.output)
         self._encode = Codec(kind.output).encode
         self._sent = b""
         if cycles:
@@ -128,6 +130,12 @@ class ParameterisedNode(ManagedNode):
         self.cycles_done += 1
         self._kept.add(self.stamp, self.stage, self.cycles_done, sent)
         self._publish(sent)
+        self._recent.add(sent)
+
+    def housekeeping(self) -> None:
+        """Tell who watches what is new."""
+        super().housekeeping()
+        self._recent.tell(self.cycles_done)
 
     def send_again(self) -> None:
         """Publish the last output once more: who has it ignores it, who waits for it goes on."""

@@ -28,7 +28,7 @@ def draw(scene: Scene) -> Iterator[NDArray[np.uint8]]:
 
 
 def _arm(pen: ImageDraw.ImageDraw, scene: Scene, data: Any, colour: str, width: int) -> None:
-    points = _seen(scene, data.xpos)
+    points = _pixels(scene, data.xpos)
     for body, parent in scene.ends:
         pen.line([*points[parent], *points[body]], fill=colour, width=FINER * width)
     for body in dict.fromkeys(end for pair in scene.ends for end in pair):
@@ -37,13 +37,17 @@ def _arm(pen: ImageDraw.ImageDraw, scene: Scene, data: Any, colour: str, width: 
         pen.ellipse([x - r, y - r, x + r, y + r], fill=colour)
 
 
-def _seen(scene: Scene, places: Array) -> Array:
-    """(N, 2) pixels of points [m], seen without perspective from the camera's direction."""
+def seen(scene: Scene, places: Array) -> Array:
+    """(N, 2) across and up [m] of points [m], seen without perspective from the camera."""
     a, e = math.radians(AZIMUTH), math.radians(ELEVATION)
     right = np.array([math.sin(a), -math.cos(a), 0.0])
     up = np.array([-math.cos(a) * math.sin(e), -math.sin(a) * math.sin(e), math.cos(e)])
     from_middle = places - scene.look_at
-    pixels = 1.15 * FINER * HEIGHT / scene.size
-    across = FINER * WIDTH / 2 + pixels * (from_middle @ right)
-    down = FINER * HEIGHT / 2 - pixels * (from_middle @ up)
+    return np.stack((from_middle @ right, from_middle @ up), axis=1)
+
+
+def _pixels(scene: Scene, places: Array) -> Array:
+    """(N, 2) of points [m]."""
+    points = 1.15 * FINER * HEIGHT / scene.size * seen(scene, places)
+    across, down = FINER * WIDTH / 2 + points[:, 0], FINER * HEIGHT / 2 - points[:, 1]
     return np.stack((across, down), axis=1)

@@ -44,11 +44,15 @@ class Scene:
     def postures(self, stride: int = 1) -> Iterator[tuple[Any, Any]]:
         """MjData of the nominal and of the realised posture, for each picture."""
         for frame in range(0, self._motion.shape[2], stride):
-            for which, data in enumerate(self._data):
-                data.qpos[self._at] = self._motion[:, which, frame]
-                self._mujoco.mj_kinematics(self.model, data)
-                self._mujoco.mj_camlight(self.model, data)
-            yield self._data[0], self._data[1]
+            yield self.posture(self._motion[:, :, frame])
+
+    def posture(self, positions: Array) -> tuple[Any, Any]:
+        """MjData of the nominal and of the realised posture; (joints, 2) positions."""
+        for which, data in enumerate(self._data):
+            data.qpos[self._at] = positions[:, which]
+            self._mujoco.mj_kinematics(self.model, data)
+            self._mujoco.mj_camlight(self.model, data)
+        return self._data[0], self._data[1]
 
     @property
     def bare(self) -> bool:
