@@ -20,7 +20,6 @@ from fpt_ros.messages.frames import SECOND
 from fpt_ros.messages.topics import Topic
 from fpt_ros.nodes import middleware
 from fpt_ros.nodes.loop_node import LoopGroup
-from fpt_ros.nodes.qos import sensor_qos
 from fpt_ros.nodes.recent import RECENT, recent_qos, unpack
 from fpt_ros.nodes.stage_node import CHANGES
 from fpt_ros.parameters import Value
@@ -155,9 +154,8 @@ class Listener:
             self._events.append(Changed(namespace, node, at, values))
 
         where = namespace.rstrip("/")
-        self._node.create_subscription(
-            ParameterEvent, f"{where}/{CHANGES}", on_change, sensor_qos(100)
-        )
+        # reliable: they are rare, and none may be missed; a node does not wait for them
+        self._node.create_subscription(ParameterEvent, f"{where}/{CHANGES}", on_change, 100)
         self._loops[namespace] = self._node.create_subscription(
             UInt8MultiArray,
             f"{where}/{RECENT}",
