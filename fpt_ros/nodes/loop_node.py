@@ -12,6 +12,7 @@ from rclpy.qos import QoSProfile
 from rclpy.subscription import Subscription
 
 from fpt_ros.messages.topics import Topic
+from fpt_ros.nodes.cost import Cost
 from fpt_ros.nodes.qos import loop_qos
 from fpt_ros.nodes.run_folder import introduce
 from fpt_ros.nodes.sender import UNKNOWN, Sender
@@ -78,6 +79,7 @@ class LoopNode(Node):
         self.level = DiagnosticStatus.OK
         self._diagnostics = self.create_publisher(DiagnosticArray, "/diagnostics", 10)
         self._reported = monotonic(), 0
+        self._cost = Cost()
 
     def subscribe_raw(
         self,
@@ -149,7 +151,8 @@ class LoopNode(Node):
 
     def _publish_diagnostics(self, rate: float) -> None:
         summary, values = self.health()
-        values = {"cycles": self.cycles_done, "rate [1/s]": f"{rate:.1f}", **values}
+        known = {"cycles": self.cycles_done, "rate [1/s]": f"{rate:.1f}", **self._cost.values()}
+        values = {**known, **values}
         level = self.level
         if self.warning:
             level = max(level, DiagnosticStatus.WARN)

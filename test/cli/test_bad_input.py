@@ -4,8 +4,8 @@ import pytest
 from command import forked_fpt
 
 CASES = [
-    (["simulate", "tor"], "no experiment 'tor': there are acrobot, cart_beam_hamper, "),
-    (["run", "tor"], "no experiment 'tor': there are acrobot, cart_beam_hamper, "),
+    (["simulate", "tor"], "no experiment 'tor': there are acrobot, affine_map, cart_beam_hamper, "),
+    (["run", "tor"], "no experiment 'tor': there are acrobot, affine_map, cart_beam_hamper, "),
     (
         ["simulate", "tora", "--variant", "x"],
         "tora has no variant 'x': it has adaptive, chatter, ",

@@ -10,6 +10,8 @@ WITHOUT_TUNER = {
     "precursor": False,
     "precursor_guard": False,
     "realtime": False,
+    "autostart": True,
+    "ends_with_plant": False,
 }
 
 

@@ -21,7 +21,9 @@ def test_unknown_names_list_what_there_is():
     known = "adaptive, chatter, guarded, lossy, nonadaptive, rotation, rough, strong"
     expected = f"tora has no variant 'weak': it has {known}"
     assert refused("tora", "weak") == expected
-    assert refused("tora", "../x") == "../x cannot be read: No such file or directory"
+    assert (
+        refused("tora", "../not/there") == "../not/there cannot be read: No such file or directory"
+    )
     assert refused("tora", settings=["plant.dt=1"]) == (
         "there is no node 'plant': there are " + ", ".join(NODES)
     )

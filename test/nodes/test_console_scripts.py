@@ -56,7 +56,7 @@ def test_five_console_scripts_and_a_recorder(tmp_path, namespace):
         (
             "plant_simulator",
             ["-p", "plant:=foo"],
-            "'foo' is none of the plants: acrobot, cart_beam_hamper, ",
+            "'foo' is none of the plants: acrobot, affine_map, cart_beam_hamper, ",
         ),
         ("plant_simulator", ["-p", "dt:=-0.5"], "plant_simulator.dt: the value given is not valid"),
         ("denoiser", ["-p", "method:=foo"], "'foo' is none of the filters: "),

@@ -48,7 +48,7 @@ def test_states_pauses_and_the_safe_effort(tmp_path):
         assert [event.goal_state.label for event in events][-6:] == [
             "deactivating", "inactive", "cleaningup", "inactive", "activating", "active",
         ]  # fmt: skip
-        healthy = graph.stamp_after(0.0) // CYCLE
+        healthy = first // CYCLE
         assert change(graph, DEFORMER, "deactivate")
         graph.wait_for_next()
         successful, reason = graph.set_parameter(DEFORMER, "stopped", False)

@@ -14,6 +14,15 @@ MS = 1_000_000
 NAN = [math.nan]
 
 
+PLAN = {
+    "horizon.model": "duffing",
+    "horizon.parameters": [0.8, 0.1, 0.9],
+    "horizon.step": 0.05,
+    "horizon.until": 2.0,
+}
+"""Of the motion that is optimised."""
+
+
 @pytest.fixture(scope="module")
 def table(tmp_path_factory):
     """A motion in a file, for those that read one."""
@@ -28,6 +37,7 @@ def generator(trajectory, relaxation, table):
         {
             **({"file": table} if trajectory == "recorded" else {}),
             **({"to_and_fro": False} if trajectory == "minimum_jerk" else {}),
+            **(PLAN if trajectory == "receding_horizon" else {}),
             "trajectory": trajectory,
             "controlled": ["x"],
             "amplitude": [0.7],

@@ -26,9 +26,10 @@ def nominal(name, amplitude, frequency, t, **own):
 
 def test_all_registered_trajectories_are_tested_here():
     here = {"constant", "cosines", "sine", "spline"}
-    integrated = {"fitzhugh_nagumo", "duffing", "lorenz"}
+    integrated = {"fitzhugh_nagumo", "duffing", "lorenz", "stimulated_neuron"}
     of_use = {"chirp", "minimum_jerk", "recorded", "step", "waypoints"}
-    elsewhere = integrated | of_use | {"blended_sines", "inverse_kinematics"}
+    files_of_their_own = {"blended_sines", "inverse_kinematics", "live", "receding_horizon"}
+    elsewhere = integrated | of_use | files_of_their_own
     assert set(TRAJECTORIES.names()) == here | elsewhere
 
 
