@@ -78,6 +78,8 @@ def run(
         cycles = cycles if robot is None else 0
         experiment = experiment.with_values(RECORDER, directory=directory, cycles=cycles)
     with run_folder.made() as folder:
+        if part is None:
+            run_folder.claim(folder, namespace)
         parameters = folder / "parameters.yaml"
         experiment.write(parameters)
         arguments = ["--ros-args", "--params-file", str(parameters)]

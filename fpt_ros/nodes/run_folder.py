@@ -4,12 +4,14 @@
 removes it at the end. Nodes that are started by hand have none, and keep nothing.
 """
 
+import glob
 import os
 import tempfile
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
+from fpt_ros.errors import RunFailed
 from fpt_ros.nodes import shared_memory
 from fpt_ros.nodes.shared_memory import FOLDER, RUN_FOLDER
 
@@ -26,6 +28,24 @@ def made() -> Iterator[Path]:
     prefix = RUN_FOLDER.format(os.getpid())
     with tempfile.TemporaryDirectory(prefix=prefix, dir=in_memory) as folder:
         yield Path(folder)
+
+
+def claim(folder: Path, namespace: str) -> None:
+    """Say that a whole graph runs here. Its nodes would find another one too, but that may be late.
+
+    Raises:
+        RunFailed: there is one in this network, ROS domain and namespace.
+    """
+    network = os.readlink("/proc/self/ns/net")
+    parts = network, os.environ.get("ROS_DOMAIN_ID", "0"), namespace.strip("/").replace("/", "~")
+    name = "~".join(parts) + ".graph"
+    (folder / name).touch()
+    for other in FOLDER.glob(RUN_FOLDER.format("*") + f"*/{glob.escape(name)}"):
+        if other.parent != folder and other.parent not in shared_memory.left_folders():
+            raise RunFailed(
+                f"process {other.parent.name.split('-')[1]} runs a graph in this ROS domain and "
+                "namespace: use another ROS_DOMAIN_ID or --namespace"
+            )
 
 
 def mine() -> Path | None:
