@@ -1,0 +1,47 @@
+"""A whole graph says where it runs, and does not start where another one does."""
+
+import os
+
+import pytest
+
+from fpt_ros.errors import RunFailed
+from fpt_ros.nodes import run_folder
+
+
+@pytest.fixture
+def domain(monkeypatch):
+    monkeypatch.setenv("ROS_DOMAIN_ID", f"test-{os.getpid()}")
+
+
+@pytest.fixture
+def running(domain):
+    """The folder of a run that goes on in the namespace ``robot``."""
+    with run_folder.made() as folder:
+        run_folder.claim(folder, "robot")
+        yield folder
+
+
+def test_a_second_graph_is_refused(running):
+    with (
+        run_folder.made() as folder,
+        pytest.raises(RunFailed, match=f"process {os.getpid()} runs a graph .* ROS_DOMAIN_ID"),
+    ):
+        run_folder.claim(folder, "/robot/")
+
+
+@pytest.mark.parametrize("namespace", ["", "robot2", "robot/arm", "*"])
+def test_another_namespace_is_free(running, namespace):
+    with run_folder.made() as folder:
+        run_folder.claim(folder, namespace)
+
+
+def test_another_domain_is_free(running, monkeypatch):
+    monkeypatch.setenv("ROS_DOMAIN_ID", "test-other")
+    with run_folder.made() as folder:
+        run_folder.claim(folder, "robot")
+
+
+def test_a_run_that_is_over_is_in_nobodys_way(domain):
+    for _ in range(2):
+        with run_folder.made() as folder:
+            run_folder.claim(folder, "robot")
