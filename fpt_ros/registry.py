@@ -7,7 +7,7 @@ filter is found by the name under which a package (this one, or a user's own) li
 
 from collections import Counter
 from functools import cache
-from importlib.metadata import EntryPoint, entry_points
+from importlib.metadata import EntryPoint, EntryPoints, entry_points
 from typing import Generic, TypeVar
 
 from fpt_ros.errors import BadInput
@@ -54,13 +54,20 @@ class Kind(Generic[Law]):
 
 
 @cache
+def _installed() -> EntryPoints:
+    """The entry points of all packages: their files are read once."""
+    return entry_points()
+
+
+@cache
 def _points(group: str) -> dict[str, EntryPoint]:
     """The entry points of a group by name.
 
     Raises:
         BadInput: two packages have the same name.
     """
-    points = {(point.name, point.value): point for point in entry_points(group=f"fpt_ros.{group}")}
+    found = _installed().select(group=f"fpt_ros.{group}")
+    points = {(point.name, point.value): point for point in found}
     for name, count in Counter(name for name, _ in points).items():
         if count > 1:
             values = " and ".join(value for other, value in points if other == name)

@@ -214,18 +214,25 @@ def specialised_loop(function: Callable[..., Any], chosen: Laws) -> Callable[...
 
     It is a function that calls the loop with them: inlined there, the pointers are constants, and
     what they point at is inlined as well. Nothing is typed or lowered again, which is what numba
-    spends most of its time on. Made of text, as ``*rest`` costs numba half as much again.
+    spends most of its time on. Made of text, as ``*rest`` costs numba half as much again. Where it
+    is on disk, its parts are not asked for: to load them would take as long again.
     """
     _, others, result = arguments_of(function)
     rest, pointers = ", ".join(others), ", ".join(f"law{i}" for i in range(len(chosen)))
     text = f"def built_in({rest}):\n    return loop({pointers}, {rest})"
-    scope = {f"law{i}": each for i, each in enumerate(_compiled_laws(function, chosen))}
-    scope |= {"loop": _loop(function), "__name__": __name__}
+    scope: dict[str, Any] = {"__name__": __name__}
     exec(compile(text, __file__, "exec"), scope)
     scope["built_in"].__qualname__ = _built_in(function, chosen)
     signature = type_of(result)(*map(type_of, others.values()))
     with warnings.catch_warnings():
         warnings.filterwarnings("ignore", "First-class function type")
+        try:
+            if is_specialised(function, chosen):
+                return cast(Callable[..., Any], _machine_code(scope["built_in"], signature))
+        except Exception:  # numba has many kinds: it is on disk for another processor, or spoilt
+            pass
+        scope |= {f"law{i}": each for i, each in enumerate(_compiled_laws(function, chosen))}
+        scope["loop"] = _loop(function)
         return cast(Callable[..., Any], _machine_code(scope["built_in"], signature))
 
 
