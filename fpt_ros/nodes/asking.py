@@ -32,7 +32,7 @@ from fpt_ros.parameters import Value
 WHERE = "ROS_DOMAIN_ID (--namespace?)"
 
 FURTHER = 10.0
-"""Seconds after the first node in which the others are found, where some are missing."""
+"""Seconds in which all nodes of a graph are found, from the first one or, for further ones, the last."""
 
 NAME_TO_COME = "_NODE_NAME_UNKNOWN_"
 """What DDS calls a node whose endpoints are found before its name is."""
@@ -70,13 +70,23 @@ class Graph:
     def call(self, kind: Any, name: str, request: Any) -> Any:
         """The answer of a service.
 
+        Args:
+            name: ``NODE/SERVICE``.
+
         Raises:
+            BadInput: the graph is whole, and no such node is part of it.
             RunFailed: nobody offers it, or nobody answers.
         """
         client = self._client(kind, name)
-        deadline = monotonic() + self._patience
+        deadline, whole = monotonic() + self._patience, 0.0
         while not client.service_is_ready():
             self._executor.spin_once(timeout_sec=0.02)
+            here = self._here()
+            if self._is_whole(here):
+                whole = whole or monotonic()
+                if monotonic() > whole + FURTHER:
+                    node, service = name.split("/", 1)
+                    raise BadInput(f"no node {node} offers {service}; there are {', '.join(here)}")
             if monotonic() > deadline:
                 raise RunFailed(
                     f"nobody offers {self._node.resolve_service_name(name)}: is the graph "

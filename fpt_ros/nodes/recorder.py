@@ -67,11 +67,11 @@ class Recorder(LoopNode):
         self._robot = values.get("robot") is True
         self._cycles = integer(values, "cycles")
         run = recorded_run(values)
-        self._parameters = run.parameters
+        self._known = run.parameters
         self._said_before = run_folder.mark(OPENED) and last_change(run.directory)
         self._writer = BagWriter(
             run.directory,
-            self._parameters,
+            self._known,
             {
                 "experiment": run.experiment,
                 "variant": run.variant,
@@ -205,11 +205,11 @@ class Recorder(LoopNode):
         if not self._snapshot.is_done():
             return
         for name, values in self._snapshot.parameters.items():
-            self._parameters[name] = {**self._parameters.get(name, {}), **values}
+            self._known[name] = {**self._known.get(name, {}), **values}
         for problem in self._snapshot.problems:
             self.get_logger().warning(problem)
         if self._lost is None:
-            self._writer.set_parameters(self._parameters)
+            self._writer.set_parameters(self._known)
         self._started = True
         run_folder.mark(STARTED)
         self._until.publish(encode_time(BEGUN))

@@ -24,6 +24,7 @@ def test_parameters_of_a_running_graph(tmp_path):
         assert ask("get", "fpt_deformer", "A").stdout == "fpt_deformer.A = -0.1\n"
         assert "fpt_deformer.A\n" in ask("list").stdout
         assert "live" in ask("describe", "fpt_deformer", "A").stdout
+        assert "recorder.directory = " in ask("get", "recorder").stdout  # it was killed by this question
 
         before = tmp_path / "before.yaml"
         assert ask("dump", "--out", before).returncode == 0
@@ -54,6 +55,7 @@ def test_parameters_of_a_running_graph(tmp_path):
             (("set", "fpt_deformer", "B=1"), "no parameter 'B'"),
             (("set", "fpt_deformer", "A"), "PARAM=VALUE"),
             (("get", "fpt_deformer", "nonsense"), "no parameter 'nonsense'"),
+            (("get", "deformer", "A"), "no node deformer offers describe_parameters; there are"),
             (("load", before, "fpt_deforme"), "has no node fpt_deforme: it has plant_simulator"),
         ):
             done = ask(*words)
