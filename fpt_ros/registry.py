@@ -59,6 +59,12 @@ def _installed() -> EntryPoints:
     return entry_points()
 
 
+def forget() -> None:
+    """Look at the installed packages anew: there is another one since."""
+    for each in (_installed, _points, _load):
+        each.cache_clear()
+
+
 @cache
 def _points(group: str) -> dict[str, EntryPoint]:
     """The entry points of a group by name.

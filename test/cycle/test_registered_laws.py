@@ -1,6 +1,6 @@
 """The registry finds laws by their names, and says what there is."""
 
-from importlib.metadata import EntryPoint
+from importlib.metadata import EntryPoint, EntryPoints
 
 import pytest
 
@@ -41,13 +41,11 @@ def points(monkeypatch):
 
     def replace(*pairs):
         made = [EntryPoint(name, value, "fpt_ros.transformations") for name, value in pairs]
-        monkeypatch.setattr(registry, "entry_points", lambda group: made)
+        monkeypatch.setattr(registry, "entry_points", lambda: EntryPoints(made))
 
-    registry._load.cache_clear()
-    registry._points.cache_clear()
+    registry.forget()
     yield replace
-    registry._load.cache_clear()
-    registry._points.cache_clear()
+    registry.forget()
 
 
 @every_kind

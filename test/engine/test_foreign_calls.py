@@ -177,11 +177,9 @@ def folder(tmp_path_factory):
 @pytest.fixture
 def installed(folder, monkeypatch):
     monkeypatch.syspath_prepend(str(folder))
-    registry._load.cache_clear()
-    registry._points.cache_clear()
+    registry.forget()
     yield folder
-    registry._load.cache_clear()
-    registry._points.cache_clear()
+    registry.forget()
 
 
 @pytest.fixture

@@ -134,8 +134,7 @@ def load(tmp_path, monkeypatch, capsys):
     def changed(old="    # MISTAKE", new="", points=None, beside=False):
         for other in () if beside else tmp_path.glob("*.dist-info"):
             shutil.rmtree(other)
-        registry._load.cache_clear()
-        registry._points.cache_clear()
+        registry.forget()
         notices.notice.cache_clear()
         name = next(names)
         assert ARM.count(old) >= 1
@@ -147,8 +146,7 @@ def load(tmp_path, monkeypatch, capsys):
 
     monkeypatch.syspath_prepend(str(tmp_path))
     yield changed
-    registry._load.cache_clear()
-    registry._points.cache_clear()
+    registry.forget()
 
 
 def refused(load, *change):

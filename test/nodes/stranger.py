@@ -4,6 +4,7 @@ from contextlib import contextmanager
 
 import rclpy
 from rclpy.context import Context
+from rclpy.duration import Duration
 
 from fpt_ros.messages import wild
 from fpt_ros.messages.topics import LOOP_TOPICS
@@ -33,12 +34,12 @@ class Stranger:
             for topic in topics
         }
 
-    def match(self, topics):
-        """Wait until those topics are listened to."""
+    def match(self, listeners):
+        """Wait until each topic has so many listeners."""
         clock = self.node.get_clock()
         deadline = clock.now().nanoseconds + PATIENCE * 1e9
-        while not all(self.publishers[topic].get_subscription_count() for topic in topics):
-            clock.sleep_for(rclpy.duration.Duration(seconds=0.02), self.node.context)
+        while any(self.publishers[t].get_subscription_count() < n for t, n in listeners.items()):
+            clock.sleep_for(Duration(seconds=0.02), self.node.context)
             assert clock.now().nanoseconds < deadline, "nobody listens"
 
     def say(self, topic, data):
@@ -52,6 +53,8 @@ def stranger(topics=LOOP_TOPICS):
     somebody = Stranger(context, topics)
     try:
         yield somebody
+        for publisher in somebody.publishers.values():
+            publisher.wait_for_all_acked(Duration(seconds=PATIENCE))
     finally:
         somebody.node.destroy_node()
         context.try_shutdown()

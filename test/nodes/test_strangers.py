@@ -13,8 +13,8 @@ from fpt_ros.bags.reader import read_run
 from fpt_ros.messages.cdr import Codec
 from fpt_ros.messages.topics import COMMAND, DESIRED, JOINT_STATES, LOOP_TOPICS, STATE_ESTIMATE
 
-HEARD = (JOINT_STATES, STATE_ESTIMATE, DESIRED, COMMAND)
-"""TORA has no tuner."""
+HEARD = {JOINT_STATES: 2, STATE_ESTIMATE: 3, DESIRED: 2, COMMAND: 2}
+"""How many listen: those who use it, and the recorder. TORA has no tuner."""
 
 FLOOD = 4000
 
