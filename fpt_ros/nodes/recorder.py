@@ -42,6 +42,9 @@ from fpt_ros.nodes.stage_node import CHANGES
 from fpt_ros.nodes.take import gid_of
 from fpt_ros.parameters import integer, word
 
+NAP = 0.002
+"""Seconds between two looks at what has come: each message by itself would cost a wake-up."""
+
 ACKNOWLEDGE = 8
 """Cycles between two messages to the plant."""
 
@@ -64,6 +67,7 @@ class Recorder(LoopNode):
         values = declare(self, description.parameters)
         end_with_plant(self, values)
         self._lockstep = values.get("realtime") is not True
+        self.nap = NAP
         self._robot = values.get("robot") is True
         self._cycles = integer(values, "cycles")
         run = recorded_run(values)

@@ -8,7 +8,7 @@ internals have changed, the executor serves the loop too: the same callbacks, sl
 
 from collections.abc import Callable, Sequence
 from itertools import cycle
-from time import monotonic
+from time import monotonic, sleep
 
 from rclpy.context import Context
 from rclpy.executors import SingleThreadedExecutor, TimeoutException
@@ -129,6 +129,7 @@ def spin(nodes: Sequence[LoopNode], stopped: Callable[[], bool], context: Contex
         executor.add_node(node)
     hot = wait_set or _PlainExecutor(executors[0], nodes)
     services = _Services(served)
+    nap = min(node.nap for node in nodes)
     for node in nodes:
         node.begin()
     quiet = True
@@ -145,6 +146,8 @@ def spin(nodes: Sequence[LoopNode], stopped: Callable[[], bool], context: Contex
                 if node.deadline is not None:
                     timeout = min(timeout, max(0.0, node.deadline - now))
             quiet = hot.wait_and_dispatch(timeout)
+            if nap and quiet:
+                sleep(nap)
             for node in nodes:
                 if node.newest_counts:
                     node.act()
