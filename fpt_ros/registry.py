@@ -8,7 +8,7 @@ filter is found by the name under which a package (this one, or a user's own) li
 from collections import Counter
 from functools import cache
 from importlib.metadata import EntryPoint, EntryPoints, entry_points
-from typing import Generic, TypeVar
+from typing import Generic, TypeVar, cast
 
 from fpt_ros.errors import BadInput
 from fpt_ros.extras import remedy
@@ -56,7 +56,7 @@ class Kind(Generic[Law]):
 @cache
 def _installed() -> EntryPoints:
     """The entry points of all packages: their files are read once."""
-    return entry_points()
+    return cast("EntryPoints", entry_points())  # Python 3.11 has another name for the same
 
 
 def forget() -> None:

@@ -25,7 +25,7 @@ from fpt_ros.messages.topics import (
     TUNING,
     Topic,
 )
-from fpt_ros.runs.chunks import joined
+from fpt_ros.runs.chunks import aligned
 from fpt_ros.runs.run import Array, Series
 
 RECORDS: dict[Topic, Any] = {
@@ -94,18 +94,34 @@ class Buffers:
 class Whole:
     """Keeps all messages of a run: a consumer for those who need whole arrays."""
 
-    def __init__(self) -> None:
-        self._chunks: list[dict[str, Series]] = []
+    def __init__(self, cycles: int) -> None:
+        """``cycles``: at most so many come; memory is taken as they do."""
+        self._cycles = cycles
+        self._kept: dict[str, Series] = {}
+        self._done = 0
 
     def take(self, chunk: Mapping[str, Series]) -> None:
         """Copy some cycles."""
-        self._chunks.append({name: series.copy() for name, series in chunk.items()})
+        first = end = self._done
+        for topic, series in chunk.items():
+            room = self._kept[topic] = self._room(self._kept.get(topic), series)
+            end = first + len(series.stamps)
+            room.stamps[first:end] = series.stamps
+            for key, matrix in room.vectors.items():
+                matrix[first:end] = aligned(series, key, room.names)
+        self._done = end
+
+    def _room(self, room: Series | None, series: Series) -> Series:
+        """For all cycles; of ``desired``, coordinates that had no turn yet may come later."""
+        if room is None:
+            shape = self._cycles, len(series.names)
+            vectors = {key: np.empty(shape) for key in series.vectors}
+            return Series(np.empty(self._cycles, dtype=np.int64), series.names, vectors)
+        names = tuple(dict.fromkeys(room.names + series.names))
+        if names == room.names:
+            return room
+        return Series(room.stamps, names, {key: aligned(room, key, names) for key in room.vectors})
 
     def topics(self) -> dict[str, Series]:
-        """All so far, joined; of ``desired`` the coordinates that have had a turn."""
-        if not self._chunks:
-            return {}
-        names = self._chunks[0]
-        whole = {name: joined([chunk[name] for chunk in self._chunks]) for name in names}
-        self._chunks = [whole]
-        return whole
+        """All so far; of ``desired`` the coordinates that have had a turn."""
+        return {topic: room.head(self._done) for topic, room in self._kept.items()}

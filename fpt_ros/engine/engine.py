@@ -65,7 +65,7 @@ class Engine:
         """
         self._loop, self._changes = loop, changes
         self.done = 0
-        self._whole = Whole() if consumers is None else None
+        self._whole = Whole(loop.plant.cycles) if consumers is None else None
         taking = [self._whole] if self._whole is not None else list(consumers or ())
         long = loop.plant.cycles >= LONG
         self._relay = Relay(taking, beside=long)

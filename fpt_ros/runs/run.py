@@ -44,6 +44,11 @@ class Series:
         vectors = {name: matrix.copy() for name, matrix in self.vectors.items()}
         return Series(self.stamps.copy(), self.names, vectors)
 
+    def head(self, count: int) -> "Series":
+        """The first frames; views."""
+        vectors = {name: matrix[:count] for name, matrix in self.vectors.items()}
+        return Series(self.stamps[:count], self.names, vectors)
+
     def without_empty(self, vector: str) -> "Series":
         """The same without the names of which this vector has no number at all."""
         found = np.asarray(~np.isnan(self.vectors[vector]).all(axis=0))

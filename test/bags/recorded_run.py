@@ -56,8 +56,9 @@ class Recorded:
 
 def record(directory: Path) -> Recorded:
     tora = experiment.load("tora", duration=1.0)
-    whole = Whole()
+    loop = tora.loop()
+    whole = Whole(loop.plant.cycles)
     with EngineRecording(directory, tora) as recording:
-        Engine(tora.loop(), consumers=(whole, recording)).run()
+        Engine(loop, consumers=(whole, recording)).run()
     topics = whole.topics()
     return Recorded(tora, list(frames(topics)), topics, directory)
