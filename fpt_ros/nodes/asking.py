@@ -32,7 +32,7 @@ from fpt_ros.parameters import Value
 WHERE = "ROS_DOMAIN_ID (--namespace?)"
 
 FURTHER = 10.0
-"""Seconds in which all nodes of a graph are found, from the first one or, for further ones, the last."""
+"""Seconds from the first node in which the others are found; others than the loop's, from the last."""
 
 NAME_TO_COME = "_NODE_NAME_UNKNOWN_"
 """What DDS calls a node whose endpoints are found before its name is."""

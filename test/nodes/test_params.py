@@ -24,7 +24,7 @@ def test_parameters_of_a_running_graph(tmp_path):
         assert ask("get", "fpt_deformer", "A").stdout == "fpt_deformer.A = -0.1\n"
         assert "fpt_deformer.A\n" in ask("list").stdout
         assert "live" in ask("describe", "fpt_deformer", "A").stdout
-        assert "recorder.directory = " in ask("get", "recorder").stdout  # it was killed by this question
+        assert "recorder.directory = " in ask("get", "recorder").stdout  # it died of this question
 
         before = tmp_path / "before.yaml"
         assert ask("dump", "--out", before).returncode == 0
