@@ -32,7 +32,7 @@ from fpt_ros.parameters import Value
 WHERE = "ROS_DOMAIN_ID (--namespace?)"
 
 FURTHER = 10.0
-"""Seconds from the first node in which the others are found; others than the loop's, from the last."""
+"""Seconds from the first node to the others; from all of these to one that is not of the loop."""
 
 NAME_TO_COME = "_NODE_NAME_UNKNOWN_"
 """What DDS calls a node whose endpoints are found before its name is."""
