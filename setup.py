@@ -11,12 +11,12 @@ from setuptools import find_packages, setup
 VERSION = ElementTree.parse("package.xml").findtext("version")
 
 FIGURES = ["matplotlib", "jinja2"]
-OFFLINE = ["scikit-fuzzy", "pyarrow", "matplotlib"]
+OFFLINE = ["pyarrow", "matplotlib"]
 CLUSTER = ["dask", "distributed"]
 PEERS = ["scikit-image", "statsmodels"]
 ROBOTS = ["mujoco>=3.3"]
 DESCRIPTIONS = ["gymnasium", "jvrc-description"]  # robots of others, for tests
-ORACLE = ["pin>=3"]  # Pinocchio: what tests and benchmarks of arms compare with
+ORACLE = ["pin>=3", "scikit-fuzzy"]  # what tests and benchmarks compare with: Pinocchio of arms
 SWEEP = ["optuna>=5", "pyarrow", "matplotlib"]
 # Jazzy for machines without it: wheels of the real thing (x86-64 Linux, CPython 3.10 to 3.14)
 ROS = [
@@ -272,6 +272,7 @@ setup(
             "levant = fpt_ros.denoising.streaming.levant:LEVANT",
             "one_euro = fpt_ros.denoising.streaming.one_euro:ONE_EURO",
             "finite_difference = fpt_ros.denoising.streaming.finite_difference:FINITE_DIFFERENCE",
+            "fuzzy = fpt_ros.denoising.streaming.fuzzy:FUZZY",
             "kalman_bank = fpt_ros.denoising.streaming.kalman_bank:KALMAN_BANK",
             "savgol = fpt_ros.denoising.streaming.savgol:SAVGOL",
             "wavelet = fpt_ros.denoising.streaming.wavelet:WAVELET",

@@ -66,8 +66,8 @@ def test_simulate_runs_and_records_without_the_extras(tmp_path, experiment):
         ("analysis", "matplotlib", ("gain", "tora", "--plot", "gain.png")),
         ("sweep", "pyarrow", ("sweep", "tora", "--grid", "fpt_deformer.A=-1:-2:2")),
         ("sweep", "optuna", ("tune", "tora", "--over", "fpt_deformer.A")),
-        ("denoise", "skfuzzy", ("denoise", "test:sines")),
-        ("thesis", "skfuzzy", ("reproduce",)),
+        ("denoise", "pyarrow", ("denoise", "test:sines")),
+        ("thesis", "jinja2", ("reproduce",)),
         (
             "cluster",
             "distributed",

@@ -14,6 +14,7 @@ KEPT = (
     ("tora", "rough"),
     ("tora_auto", "adaptive"),
     ("noisy_tora", "adaptive"),
+    ("noisy_tora", "fuzzy"),
     ("panda", "adaptive"),
 )
 

@@ -15,7 +15,7 @@ from fpt_ros.nodes.kept import Kept
 CYCLES = 60
 
 EVERYTHING = [(name, variant) for name, found in available().items() for variant in found]
-KEEP = [("tora", "rough"), ("noisy_tora", "adaptive"), ("tora_auto", "adaptive")]
+KEEP = [("tora", "rough"), ("noisy_tora", "fuzzy"), ("tora_auto", "adaptive")]
 
 
 def bytes_of(frames):

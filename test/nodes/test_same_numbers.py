@@ -57,6 +57,7 @@ COMPOSED = samples.sample(
 SEPARATE = [
     ("tora", "adaptive", 16 if samples.whole else 1, ()),
     ("tora", "nonadaptive", 1, ("--namespace", "robot1")),
+    ("noisy_tora", "fuzzy", 0.3, ()),
     ("vdp_rfpt", "adaptive", 6 if samples.whole else 1, ()),
     ("panda", "adaptive", 16 if samples.whole else 0.5, ()),
     ("swing", "adaptive", 0.1, ("--set", "trajectory_generator.time_sharing=[0.02, 0.005]")),

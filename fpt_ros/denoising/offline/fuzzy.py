@@ -1,9 +1,9 @@
 """The fuzzy supervisor (thesis section 5.1.1): level, rule, wavelet and window from the signal.
 
-The thesis names four Mamdani experts and their inputs, and gives no rule base: sets and rules are
-decisions of this project. Inputs: the SNR [dB] of the median-filtered signal, the share e of the
-noise-free energy in the three finest details, the change dv [decades] of detail energy against a
-sine probe, the mean kurtosis of coarse details (jumps), and the level already chosen.
+Four Mamdani experts (:mod:`~fpt_ros.denoising.experts`). Inputs: the SNR [dB] of the
+median-filtered signal, the share e of the noise-free energy in the three finest details, the change
+dv [decades] of detail energy against a sine probe, the mean kurtosis of coarse details (jumps), and
+the level already chosen.
 
 Measured, its choice of level, rule and wavelet does not beat HeurSure with 4 levels, and dv
 saturates: the probe as described carries no information. ``auto`` chooses by risk instead.
@@ -16,19 +16,13 @@ import numpy as np
 import pywt
 from scipy.ndimage import median_filter
 
+from fpt_ros.denoising.experts import LEVEL, RULE, WAVELET, WINDOW
 from fpt_ros.denoising.offline import Info, Mask, Method, Signal, heursure, minimax, sureshrink
 from fpt_ros.denoising.offline import universal as universal_rule
 from fpt_ros.denoising.offline.improved import improved
-from fpt_ros.denoising.offline.mamdani import Rules
 from fpt_ros.denoising.offline.noise import noise_sigma
 from fpt_ros.denoising.offline.thresholding import decompose, shrink
 from fpt_ros.parameters import Parameter, Values, word
-
-SNR = (-5.0, 8.0, 20.0)
-LEVEL = Rules(SNR, (0.0, 0.1, 0.3), "LL:H LM:H LH:M ML:H MM:M MH:L HL:M HM:L HH:L")
-RULE = Rules((0.0, 0.5, 1.0), (0.0, 1.0, 2.0), "LL:L LM:M LH:M ML:L MM:M MH:H HL:M HM:H HH:H")
-WAVELET = Rules((0.0, 0.4, 0.9), (0.0, 0.1, 0.3), "LL:H LM:H LH:M ML:H MM:M MH:M HL:M HM:L HH:L")
-WINDOW = Rules(SNR, (0.1, 0.2, 0.4), "LL:H LM:M LH:L ML:H MM:M MH:L HL:M HM:L HH:L")
 
 RULES = {
     "sureshrink": sureshrink.rule,
