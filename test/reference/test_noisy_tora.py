@@ -55,6 +55,30 @@ def test_savitzky_golay_holds():
     assert savgol["q2"] <= 7e-4
 
 
+@pytest.mark.parametrize("seed", [1, 2])
+def test_the_fuzzy_supervisor_holds_where_its_widest_window_does_not(seed):
+    seeded = f"plant_simulator.seed={seed}"
+    fuzzy, savgol = (result(name, 1e-4, seeded) for name in ("fuzzy", "savgol"))
+    widest = result("savgol", 1e-4, seeded, "denoiser.window=41")
+    assert fuzzy["q3"] < 0.95 * savgol["q3"]
+    assert fuzzy["q2"] < 0.95 * savgol["q2"]
+    assert fuzzy["chatter"] < 0.75 * savgol["chatter"]
+    assert widest["q3"] > 4.0 * fuzzy["q3"]
+
+
+def test_the_fuzzy_supervisor_keeps_impulses_out_of_the_loop():
+    hit = (
+        "plant_simulator.sensors.kinds=[impulses]",
+        "plant_simulator.sensors.impulses.size=0.01",
+        "denoiser.healing.kind=none",
+    )
+    quiet, fuzzy, savgol = (
+        result(name, 1e-4, *more) for name, more in (("fuzzy", ()), ("fuzzy", hit), ("savgol", hit))
+    )
+    assert fuzzy["q3"] < 1.05 * quiet["q3"]
+    assert savgol["q3"] > 4.0 * fuzzy["q3"]
+
+
 def test_synchronised_without_a_filter_is_the_law_of_the_thesis():
     plain = result("adaptive", None, name="tora")
     same = result("adaptive", None, "fpt_deformer.synchronised=true", name="tora")

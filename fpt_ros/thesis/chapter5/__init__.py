@@ -6,6 +6,7 @@ from fpt_ros.thesis.chapter5 import (
     s5_1_3_results,
     s5_1_3_table_5_1,
     s5_1_threshold_rules,
+    s5_2_on_line,
 )
 
 TITLE = "Improved denoising in the wavelet domain"
@@ -16,4 +17,5 @@ CLAIMS = (
     *s5_1_1_healing.CLAIMS,
     *s5_1_3_table_5_1.CLAIMS,
     *s5_1_3_results.CLAIMS,
+    *s5_2_on_line.CLAIMS,
 )
