@@ -14,8 +14,8 @@ of the standard deviation that noise gives to it. The first expert moves the pla
 window in use misses, and by what the next wider one would.
 
 **Impulses.** The distance of a sample is that from the nearest prediction of all windows. If the
-second expert doubts it, the prediction takes its place; after four in a row the motion has jumped,
-and everything is believed until a prediction is within two standard deviations again.
+second expert doubts it, the prediction takes its place; after two or three alike in a row the
+motion has jumped, and all is believed until a prediction is within two standard deviations again.
 
 The other two experts, of wavelet and threshold, have nothing to choose here: the newest sample
 gains nothing by shrinkage (:mod:`~fpt_ros.denoising.streaming.wavelet`).

@@ -4,7 +4,7 @@ import math
 
 from fpt_ros.denoising.mamdani import SIZE, infer
 from fpt_ros.denoising.offline.noise import MAD
-from fpt_ros.denoising.streaming.kalman_bank import RECOVERED, REJECTIONS
+from fpt_ros.denoising.streaming.kalman_bank import RECOVERED
 from fpt_ros.laws import MutableVector, Vector, helper
 
 # places among the constants: shared ones and two rule bases, then by window these and four kernels
@@ -13,11 +13,14 @@ DOUBT_RULES = WIDTH_RULES + SIZE
 HEADER = DOUBT_RULES + SIZE
 MEMBER = 3
 # places in the memory of a coordinate: shared ones, the last of them three samples; then vectors
-PLACE, IN_A_ROW, IMPULSES, COUNT, OLDEST, LAST = range(6)
+PLACE, DOUBTED, IN_A_ROW, JUMPED, IMPULSES, COUNT, OLDEST, LAST = range(8)
 SHARED = LAST + 3
 
 MOST = 4.0
 """Greatest difference of e^2 / S that counts: no sample must decide alone."""
+
+FAR = 24.0
+"""Standard deviations beyond which three samples alike in a row make a jump, else two."""
 
 LEVEL = 1.0 / (MAD * math.sqrt(20.0))
 """sigma of white noise over the median of its third differences' sizes."""
@@ -80,24 +83,37 @@ def believed(
     nearest: float,
     newest: float,
 ) -> float:
-    """The sample, or what is expected in its place if it is missing or the expert doubts it."""
+    """The sample, or what is expected in its place if it is missing or the expert doubts it.
+
+    Impulses in a row are seldom alike: on the same side, and at least half as far as the one
+    before. Samples that are have jumped, and are believed until a prediction is near again.
+    """
     members, longest, memory = int(constants[0]), int(constants[1]), int(constants[3])
-    doubted = False
-    if sigma > 0.0 and nearest < math.inf:
-        distance = math.sqrt(nearest) / sigma
-        if state[first + IN_A_ROW] < REJECTIONS:
-            doubted = infer(constants, DOUBT_RULES, distance, state[first + IMPULSES]) > 0.5
-            state[first + IN_A_ROW] = state[first + IN_A_ROW] + 1.0 if doubted else 0.0
-        elif distance < RECOVERED:
-            state[first + IN_A_ROW] = 0.0
-        state[first + IMPULSES] += ((1.0 if doubted else 0.0) - state[first + IMPULSES]) / memory
-    if newest - newest == 0.0 and not doubted:
-        return newest
     expected = first + SHARED + 2 * memory + longest
     place = state[first + PLACE]
     lower = int(place) if place < members - 1.0 else members - 2
     prediction = state[expected + lower]
-    return prediction + (place - lower) * (state[expected + lower + 1] - prediction)
+    prediction += (place - lower) * (state[expected + lower + 1] - prediction)
+    if newest - newest != 0.0:
+        return prediction
+    doubted = False
+    if sigma > 0.0:
+        distance, miss = math.sqrt(nearest) / sigma, newest - prediction
+        before, in_a_row = state[first + DOUBTED], state[first + IN_A_ROW]
+        state[first + DOUBTED] = state[first + IN_A_ROW] = 0.0
+        if state[first + JUMPED] > 0.0:
+            state[first + JUMPED] = 0.0 if distance < RECOVERED else 1.0
+        elif infer(constants, DOUBT_RULES, distance, state[first + IMPULSES]) > 0.5:
+            alike = miss * before > 0.5 * before * before
+            enough = 1.0 if distance < FAR else 2.0
+            if alike and in_a_row >= enough:
+                state[first + JUMPED] = 1.0
+            else:
+                doubted = True
+                state[first + DOUBTED] = miss
+                state[first + IN_A_ROW] = in_a_row + 1.0 if alike else 1.0
+        state[first + IMPULSES] += ((1.0 if doubted else 0.0) - state[first + IMPULSES]) / memory
+    return prediction if doubted else newest
 
 
 @helper
