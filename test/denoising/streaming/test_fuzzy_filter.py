@@ -113,13 +113,14 @@ def machine(q, dt=DT, law=FUZZY, **given):
 
 def places(q, **given):
     """Where the supervisor is on the ladder, after every sample."""
-    constants = constants_of(FUZZY, **given)
-    state = [0.0] * FUZZY.state_size(constants, 1)
-    FUZZY.start(constants, state, [q[0]], [math.nan])
-    found, out = [0.0], [[0.0], [0.0], [0.0]]
+    constants = np.array(constants_of(FUZZY, **given))
+    state = np.zeros(FUZZY.state_size(constants, 1))
+    FUZZY.start(constants, state, q[:1], [math.nan])
+    update, found = compiled.law(FUZZY.update, Update), [0.0]
+    unknown, out = np.array([math.nan]), np.zeros((3, 1))
     for each in q[1:]:
-        FUZZY.update(constants, state, DT, [each], [math.nan], *out)
-        found.append(state[1 + PLACE])
+        update(constants, state, DT, np.array([each]), unknown, *out)
+        found.append(float(state[1 + PLACE]))
     return np.array(found)
 
 
