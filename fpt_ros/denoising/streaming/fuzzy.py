@@ -9,9 +9,9 @@ which do not see parabolas, nor impulses below one sample in ten.
 
 **Motion.** A window of M samples misses a sample that it has not seen by e. In noise alone e^2 has
 the mean S = sigma^2 (1 + |p|^2), p being its weights for one sample ahead. The mean of e^2 / S over
-the last M samples, less that of the next narrower window, is what it misses of the motion; in units
-of the standard deviation that noise gives to it. The first expert moves the place by what the
-window in use misses, and by what the next wider one would.
+the last M samples, less that of the next narrower window, is what it misses of the motion. It is
+counted in standard deviations of what noise alone makes of it. The first expert moves the place by
+what the window in use misses, and by what the next wider one would.
 
 **Impulses.** The distance of a sample is that from the nearest prediction of all windows. If the
 second expert doubts it, the prediction takes its place; after two or three alike in a row the
