@@ -1,22 +1,37 @@
 """``auto``: the risk-based choice among a library of smoothers, each made robust by EM.
 
 Beyond the thesis, in the place of its fuzzy supervisor (section 5.1.1). What the noise is is found
-first (:mod:`noise_found`), then all members are fitted and weighed (:mod:`library`). Long records
-are done in windows that overlap (:mod:`windows`). Where the steps of time differ, only the Gaussian
+first (:mod:`noise_found`), then all members are fitted and weighed (:mod:`library`). Where what is
+left has heavier tails than impulses in normal noise, there is a second look at the samples without
+them (:mod:`heavy_tails`). Long records are done in windows that overlap (:mod:`windows`). Where the steps of time differ, only the Gaussian
 processes know what to do, and they are all there is.
 """
 
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
 
 import numpy as np
 
-from fpt_ros.denoising.offline import Found, Info, Mask, Method, Record, Signal, doubts, library
+from fpt_ros.denoising.offline import (
+    Found,
+    Info,
+    Mask,
+    Method,
+    Record,
+    Signal,
+    doubts,
+    heavy_tails,
+    library,
+)
 from fpt_ros.denoising.offline.gaussian_process import Process
 from fpt_ros.denoising.offline.noise_found import Beginning, find
 from fpt_ros.parameters import Values
 
 SHORTEST = 16
+MANY = 0.075
+"""Share of impulses that makes the first look doubtful: all members are tried again."""
+SMALL = 0.03
+"""Members of less weight are not tried again."""
 
 
 @dataclass(frozen=True)
@@ -36,6 +51,15 @@ class Part:
     impulses: float
     weights: dict[str, float]
     general: dict[str, float]
+
+
+@dataclass(frozen=True)
+class Look:
+    """What one look found: the part, the judge of its members, the estimate's degrees of freedom."""
+
+    part: Part
+    judge: library.Judge
+    df: float
 
 
 def middle(y: Signal) -> float:
@@ -65,6 +89,20 @@ def part(
     """
     offset = middle(y[present])
     y = y - offset
+    first = look(y, present, choice, known, step)
+    tail = heavy_tail(y, present, first)
+    found = first.part if tail is None else without(tail, y, present, first, choice)
+    return replace(found, estimate=found.estimate + offset)
+
+
+def look(
+    y: Signal,
+    present: Mask,
+    choice: library.Choice | None,
+    known: tuple[tuple[Process, float], ...],
+    step: float | None,
+) -> Look:
+    """The noise, all members, and what is believed of them; arguments as of :func:`part`."""
     beginning = find(y, present, np.ones(len(y)), known, step)
     white = beginning.process.colour is None
     judge, general, special = library.fit_all(
@@ -74,13 +112,59 @@ def part(
     if varies:
         general = [*general, special[0]]
     coarse = beginning.step if beginning.begin.sigma < beginning.step else 0.0
-    estimate, weights, inner = believed(y, present, judge, general, special, varies, coarse)
+    estimate, df, weights, inner = believed(y, present, judge, general, special, varies, coarse)
+    return Look(Part(estimate, beginning, judge.noise.p, weights, inner), judge, df)
+
+
+def heavy_tail(y: Signal, present: Mask, first: Look) -> heavy_tails.Tail | None:
+    """The tails of white noise of one level, where they are heavy.
+
+    Rounding and colour have other remedies; where the level varies its profile is late, and what it
+    leaves looks like tails.
+    """
+    beginning = first.part.beginning
+    varies = np.ndim(beginning.begin.profile) > 0
+    if varies or beginning.step > 0.0 or beginning.process.colour is not None:
+        return None
+    return heavy_tails.find(y - first.part.estimate, present, first.judge.noise)
+
+
+def without(
+    tail: heavy_tails.Tail,
+    y: Signal,
+    present: Mask,
+    first: Look,
+    choice: library.Choice | None,
+) -> Part:
+    """The mean of the first look and of one at the samples without the tails of their noise."""
+    before = first.part
+    z = np.where(present, tail.normal(y, before.estimate), y)
+    known: tuple[tuple[Process, float], ...] = ()
+    if choice is not None or before.impulses < MANY:
+        known = before.beginning.process.processes
+        choice = library.Choice(
+            frozenset(name for name, w in before.general.items() if w > SMALL),
+            frozenset(name for name, w in before.weights.items() if w > SMALL),
+        )
+    second = look(z, present, choice, known, 0.0)
+    score = [
+        library.PRICE * each.df - 2.0 * tail.log_likelihood(y - each.part.estimate, present)
+        for each in (first, second)
+    ]
+    weight = np.exp((min(score) - np.array(score)) / library.SHARP)
+    weight /= weight.sum()
+
+    def mean(of: Callable[[Part], dict[str, float]]) -> dict[str, float]:
+        own, other = of(before), of(second.part)
+        names = [*own, *(name for name in other if name not in own)]
+        return {n: float(weight @ [own.get(n, 0.0), other.get(n, 0.0)]) for n in names}
+
     return Part(
-        np.asarray(estimate + offset),
-        beginning,
-        judge.noise.p,
-        weights,
-        inner,
+        np.asarray(weight @ np.array([before.estimate, second.part.estimate])),
+        before.beginning,
+        before.impulses,
+        mean(lambda one: one.weights),
+        mean(lambda one: one.general),
     )
 
 
@@ -92,8 +176,8 @@ def believed(
     special: Sequence[library.Member],
     varies: bool,
     coarse: float = 0.0,
-) -> tuple[Signal, dict[str, float], dict[str, float]]:
-    """The mean of the members that are not doubted (:mod:`doubts`), and the weights of both means.
+) -> tuple[Signal, float, dict[str, float], dict[str, float]]:
+    """The mean of the members that are not doubted (:mod:`doubts`).
 
     Args:
         y: samples, shape (n,).
@@ -102,6 +186,9 @@ def believed(
         general, special: the members; the record as it is is among the special ones.
         varies: whether the noise varies along the record.
         coarse: step of rounding, unit of y, where other noise is below it; else 0.
+
+    Returns:
+        The mean, shape (n,), its degrees of freedom, and the weights of the last and the first mean.
     """
     doubt = library.DOUBT if varies else 1.0
     last = [judge.mean("general", general, doubt * library.WIDE), *special]
@@ -123,7 +210,8 @@ def believed(
         estimate, weight = y, np.array([m.name == library.UNCHANGED for m in last]) * 1.0
     inner = judge.weights(general, doubt * library.WIDE)
     return (
-        estimate,
+        np.asarray(estimate),
+        float(weight @ [member.df for member in last]),
         {m.name: float(w) for m, w in zip(last, weight, strict=True)},
         {m.name: float(w) for m, w in zip(general, inner, strict=True)},
     )

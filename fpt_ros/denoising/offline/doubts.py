@@ -32,8 +32,9 @@ CHANCE = 0.01
 """Runs, and densities, that impulses on their own would have in this share of records, are bursts.
 A heavy tail is many impulses: of 15 %, three in a row are nothing."""
 LEAST_RUN = 3
-REACH = 8
-"""Samples around a burst, and standard deviation of the window of the density of impulses."""
+REACH, WINDOW = 8, 24
+"""Samples around a burst; standard deviation of the window of the density of impulses: in a
+narrower one, or next to an end, five impulses are dense by chance."""
 DENSE, THIN = 0.2, 0.1
 """Density that is a burst, and down to which a burst goes."""
 SIGMAS = 4.0
@@ -60,20 +61,20 @@ def bursts(impulse: Signal) -> Mask:
         impulse: probability that a sample is one, shape (n,).
     """
     n = len(impulse)
-    density = gaussian_filter1d(impulse, REACH, mode="reflect")
+    density = gaussian_filter1d(impulse, WINDOW, mode="reflect")
     typical = min(float(np.median(density)), MOST_SHARE)
-    run = LEAST_RUN
-    while n * typical**run > CHANCE:
-        run += 1
-    found = binary_opening(impulse > LIKELY, np.ones(run))
-    if found.any():
-        found = binary_dilation(found, iterations=REACH)
     # a Gaussian window is as wide as 2 sqrt(pi) standard deviations of equal weights
-    chance = math.sqrt(typical * (1.0 - typical) / (2.0 * math.sqrt(math.pi) * REACH))
+    chance = math.sqrt(typical * (1.0 - typical) / (2.0 * math.sqrt(math.pi) * WINDOW))
     dense = max(DENSE, typical + SIGMAS * chance)
+    found = np.zeros(n, dtype=bool)
     if density.max() > dense:
-        found |= density > max(THIN, 0.5 * (typical + dense))
-    return np.asarray(found)
+        found = density > max(THIN, 0.5 * (typical + dense))
+    share = min(float(np.sum(impulse[~found])) / n, MOST_SHARE)
+    run = LEAST_RUN
+    while n * share**run > CHANCE:
+        run += 1
+    runs = binary_opening(impulse > LIKELY, np.ones(run))
+    return np.asarray(found | binary_dilation(runs, iterations=REACH))
 
 
 def no_rounding(y: Signal, estimate: Signal, step: float) -> Mask:
