@@ -3,8 +3,8 @@
 Beyond the thesis, in the place of its fuzzy supervisor (section 5.1.1). What the noise is is found
 first (:mod:`noise_found`), then all members are fitted and weighed (:mod:`library`). Where what is
 left has heavier tails than impulses in normal noise, there is a second look at the samples without
-them (:mod:`heavy_tails`). Long records are done in windows that overlap (:mod:`windows`). Where the steps of time differ, only the Gaussian
-processes know what to do, and they are all there is.
+them (:mod:`heavy_tails`). Long records are done in windows that overlap (:mod:`windows`). Where the
+steps of time differ, only the Gaussian processes know what to do, and they are all there is.
 """
 
 from collections.abc import Callable, Sequence
@@ -55,7 +55,13 @@ class Part:
 
 @dataclass(frozen=True)
 class Look:
-    """What one look found: the part, the judge of its members, the estimate's degrees of freedom."""
+    """What one look found.
+
+    Attributes:
+        part: estimate, noise and weights.
+        judge: of the members.
+        df: degrees of freedom of the estimate.
+    """
 
     part: Part
     judge: library.Judge
@@ -188,7 +194,7 @@ def believed(
         coarse: step of rounding, unit of y, where other noise is below it; else 0.
 
     Returns:
-        The mean, shape (n,), its degrees of freedom, and the weights of the last and the first mean.
+        The mean, shape (n,), its degrees of freedom, the weights of the last and the first mean.
     """
     doubt = library.DOUBT if varies else 1.0
     last = [judge.mean("general", general, doubt * library.WIDE), *special]
