@@ -8,6 +8,7 @@ from mcap_ros2.reader import read_ros2_messages
 from watcher import watcher
 
 from fpt_ros.bags.reader import read_run
+from fpt_ros.cycle.stages import STAGES
 
 
 def node_of(process, name):
@@ -44,6 +45,22 @@ def test_cycles_follow_the_wall_clock(tmp_path):
     largest = max(float(r["latency max [ms]"]) for r in reports if "latency max [ms]" in r)
     assert 1e3 * told.largest == largest
     assert result["real_time"]["missed_deadlines"] == told.missed
+    is_told_what_its_processes_took(bag)
+
+
+def is_told_what_its_processes_took(bag):
+    """By `fpt info`, and on the page of the report and beside it."""
+    costs = fpt_json("info", bag)["costs"]
+    assert {name for cost in costs for name in cost["nodes"]} == {*STAGES, "recorder"}
+    assert len(costs) == 6
+    for cost in costs:
+        assert 0.0 <= cost["processor_mean_percent"] <= cost["processor_max_percent"] < 200.0
+        assert 20.0 < cost["memory_start_mb"] <= cost["memory_end_mb"] + 10.0
+    assert "growth" in forked_fpt("info", bag).stdout
+    report = bag.with_name("report")
+    assert fpt_json("report", bag, "--out", report)["costs"] == costs
+    page = (report / "index.html").read_text()
+    assert '<th scope="row">trajectory_generator</th>' in page
 
 
 HOLD = ("when_stopped=hold", "hold.stiffness=[40.0]", "hold.damping=[6.0]", "safe_effort=[0.5]")
