@@ -72,8 +72,8 @@ def compare(
 
     Example: fpt compare panda --tune --out /tmp/panda
     """
-    from fpt_ros.cli.output import console, print_json
     from fpt_ros.cli.interrupts import collected
+    from fpt_ros.cli.output import console, print_json
     from fpt_ros.cli.sweep import progress
     from fpt_ros.compare import compare as comparisons
     from fpt_ros.compare.page import as_json, write_page

@@ -5,7 +5,7 @@ import re
 from fpt_ros.errors import BadInput
 
 LONGEST = 180
-"""Letters: ROS allows 245 of a service's whole name, of which 47 are the node's and the service's."""
+"""Letters: ROS allows 245 for a whole name, of which 47 are those of a node and its service."""
 
 
 def check(namespace: str) -> str:

@@ -1,7 +1,6 @@
 """Ctrl-C at any time: one line, status 130, nothing left behind."""
 
 import os
-import signal
 import subprocess
 import sys
 
