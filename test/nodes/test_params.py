@@ -5,7 +5,8 @@ import signal
 from command import forked_fpt, start_fpt
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
 from rcl_interfaces.msg import Log, Parameter, ParameterValue
-from rcl_interfaces.srv import SetParameters
+from rcl_interfaces.srv import SetParameters, SetParametersAtomically
+from rclpy.parameter import Parameter as RosParameter
 from watcher import watcher
 
 from fpt_ros.experiments.parameter_file import read
@@ -75,11 +76,15 @@ def a_gain_that_does_not_contract(graph):
         DiagnosticArray, "/diagnostics", lambda m: health.update((s.name, s) for s in m.status), 10
     )
     unknown = SetParameters.Request(parameters=[Parameter(name="A", value=ParameterValue(type=77))])
-    client = graph.node.create_client(SetParameters, "/fpt_deformer/set_parameters")
-    assert client.wait_for_service(timeout_sec=60.0)
-    client.call_async(unknown)
-    while not any("a call that cannot be read" in text for text in said):
-        graph.executor.spin_once(timeout_sec=1.0)
+    (result,) = graph.call(SetParameters, "/fpt_deformer/set_parameters", unknown).results
+    assert not result.successful
+    assert result.reason.startswith("A: a value that cannot be read: ")
+    several = SetParametersAtomically.Request(
+        parameters=[RosParameter("A", value=-0.3).to_parameter_msg(), *unknown.parameters]
+    )
+    service = "/fpt_deformer/set_parameters_atomically"
+    assert not graph.call(SetParametersAtomically, service, several).result.successful
+    assert graph.get_parameter("fpt_deformer", "A") != -0.3
     done = ask("set", "fpt_deformer", "A=-5")
     assert done.returncode == 0
     assert done.stderr.startswith(f"fpt: warning: {outside}")
