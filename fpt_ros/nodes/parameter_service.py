@@ -1,4 +1,4 @@
-"""The services of parameters, of which rclpy leaves a call with an unknown type without an answer."""
+"""The services of parameters; rclpy leaves a call with a type that there is not unanswered."""
 
 from collections.abc import Sequence
 
