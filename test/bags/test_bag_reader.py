@@ -12,7 +12,7 @@ from messages_made import message, same
 from recorded_run import INFO, Recorded
 from rosbags.typesys import Stores, get_typestore
 
-from fpt_ros.bags import reader
+from fpt_ros.bags import changes, reader, schemas
 from fpt_ros.bags.writer import BagWriter
 from fpt_ros.errors import BadInput
 from fpt_ros.messages.cdr import Codec
@@ -159,6 +159,26 @@ def test_what_the_nodes_of_the_run_take_of_the_machine(tmp_path: Path, namespace
     ]
     (cost,) = reader.read_run(path).costs
     assert cost.growth == 0.5
+
+
+def test_a_list_that_was_emptied_in_flight_and_told_as_one_of_bytes(tmp_path: Path) -> None:
+    """As nodes did before they knew of it: rclpy takes an empty list for one of bytes."""
+    path, kind, types = tmp_path / "bag", changes.TYPE, schemas.types()
+    empty = types["rcl_interfaces/msg/ParameterValue"](type=5, **changes._EMPTY)
+    parameter = types["rcl_interfaces/msg/Parameter"](name="safe_effort", value=empty)
+    stamp = types["builtin_interfaces/msg/Time"](sec=1, nanosec=0)
+    event = types[kind](
+        stamp=stamp,
+        node="/fpt_deformer",
+        new_parameters=[],
+        changed_parameters=[parameter],
+        deleted_parameters=[],
+    )
+    with BagWriter(path, {"node": {"a": 1}}, {}) as bag:
+        bag.write("/joint_states", JOINT_STATE, 0, message(0))
+        bag.write("/parameter_changes", kind, 0, schemas.encode(kind, event))
+    (change,) = reader.read_run(path).changes
+    assert change.values == {"safe_effort": []}
 
 
 def test_in_lockstep_there_are_no_latencies(recorded: Recorded) -> None:
