@@ -10,7 +10,7 @@ from typing import Any
 import typer
 from typer.main import get_command
 
-from fpt_ros.cli.main import app
+from fpt_ros.cli.app import app
 
 HERE = Path(__file__).parent
 PACKAGE = HERE.parent / "fpt_ros"

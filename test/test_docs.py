@@ -12,7 +12,7 @@ sys.path.insert(0, str(DOCS))
 
 import site_pages  # noqa: E402
 
-from fpt_ros.cli.main import COMMANDS  # noqa: E402
+from fpt_ros.cli.app import COMMANDS  # noqa: E402
 
 MADE = {"reference/commands.md", "reference/api/index"}
 """Made at each build of the site."""

@@ -113,14 +113,19 @@ def numbers_of(run: Run) -> Summary:
     return summary(run)
 
 
+def in_full(run: Run, numbers: Summary, performance: Performance) -> Summary:
+    """A run's summary with how well it follows, and what its processes took of the machine."""
+    costs = [cost.numbers() for cost in run.costs]
+    return {**numbers, "performance": performance.result(), "costs": costs}
+
+
 def with_numbers(run: Run) -> Outline:
     """The outline of a run with its summary, and how well it follows."""
     if isinstance(run, Outline) and run.numbers is not None:
         return run
     performance = Performance(run.parameters)
     performance.take(ordered(run.topics))
-    numbers = {**summary(run), "performance": performance.result()}
-    return replace(outline(run), numbers=numbers)
+    return replace(outline(run), numbers=in_full(run, summary(run), performance))
 
 
 class Outliner:
@@ -226,6 +231,7 @@ class Outliner:
             self._topics,
             about.latency,
             tuple(self._since_start(about.changes)),
+            about.costs,
             end=self._end,
             numbers=numbers,
             motions=moved,

@@ -4,7 +4,7 @@ from collections.abc import Mapping
 from pathlib import Path
 
 from fpt_ros.analysis.metrics import Metrics, Summary
-from fpt_ros.analysis.outline import Outline, Outliner
+from fpt_ros.analysis.outline import Outline, Outliner, in_full
 from fpt_ros.analysis.performance import Performance
 from fpt_ros.bags.reader import play
 from fpt_ros.parameters import Values
@@ -45,4 +45,4 @@ def read_outline(path: Path) -> Outline:
     run = play(path, make)
     metrics, performance, outliner = made[0]
     numbers = metrics.result(run.info, run.latency)
-    return outliner.result(run, {**numbers, "performance": performance.result()})
+    return outliner.result(run, in_full(run, numbers, performance))

@@ -18,6 +18,7 @@ from fpt_ros.analysis.whole_files import write_whole
 from fpt_ros.errors import BadInput
 from fpt_ros.messages.frames import SECOND
 from fpt_ros.parameters import Value
+from fpt_ros.runs.cost import HEADINGS, row
 from fpt_ros.runs.run import Run
 
 TEMPLATE = "report.html.j2"
@@ -137,6 +138,8 @@ def _page(runs: Sequence[Outline], found: Mapping[str, Chart]) -> str:
         script=drawn.script,
         films=_films(runs),
         labels=run_labels(runs),
+        costs=_costs(runs),
+        cost_headings=HEADINGS,
         nodes=differences(runs),
         real_time=any(run.latency is not None for run in runs),
         versions=sorted({run.info.get("version", "") for run in runs} - {""}),
@@ -159,6 +162,15 @@ def _films(runs: Sequence[Outline]) -> list[tuple[str, str, str]]:
         (label, base64.b64encode(film.film).decode(), base64.b64encode(film.still).decode())
         for label, film in found
         if film is not None
+    ]
+
+
+def _costs(runs: Sequence[Run]) -> list[tuple[str, list[tuple[str, ...]]]]:
+    """Label of every run that tells what its processes took, and the rows of the table."""
+    return [
+        (label, [row(cost.numbers()) for cost in run.costs])
+        for run, label in zip(runs, run_labels(runs), strict=True)
+        if run.costs
     ]
 
 

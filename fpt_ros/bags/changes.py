@@ -14,6 +14,7 @@ TOPIC, TYPE = "parameter_changes", "rcl_interfaces/msg/ParameterEvent"
 
 _FIELDS = {
     1: "bool_value", 2: "integer_value", 3: "double_value", 4: "string_value",
+    5: "byte_array_value",  # empty lists, as rclpy and nodes before this was known told them
     6: "bool_array_value", 7: "integer_array_value", 8: "double_array_value",
     9: "string_array_value",
 }  # fmt: skip

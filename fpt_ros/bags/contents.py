@@ -7,11 +7,11 @@ from fpt_ros.bags.bag import END, INFO, Bag
 from fpt_ros.bags.block import Block, Source
 from fpt_ros.bags.loop_series import loop_topic
 from fpt_ros.bags.scan import CUT
-from fpt_ros.cycle.plant_simulator import PlantSimulator
 from fpt_ros.errors import BadInput
 from fpt_ros.messages.frames import SECOND
 from fpt_ros.parameters import Value
 from fpt_ros.runs.changes import Change
+from fpt_ros.runs.cost import Costs
 from fpt_ros.runs.latency import Latencies
 
 
@@ -21,6 +21,7 @@ class Aside:
 
     bag: Bag
     latency: Latencies | None = None
+    costs: Costs = field(default_factory=Costs)
     changes: list[Change] = field(default_factory=list)
     begun_again: list[int] = field(default_factory=list)
 
@@ -31,7 +32,7 @@ class Aside:
         return loop_topic(source) is not None and own
 
     def take(self, block: Block) -> None:
-        """Look for latencies, changes of parameters, and where the run begins again."""
+        """Look for what nodes say of themselves, changes, and where the run begins again."""
         for source, rows in block.rows.items():
             told = source == Source(diagnostics.TOPIC, diagnostics.TYPE)
             kind = source.topic.rpartition("/")[2], source.type
@@ -42,8 +43,10 @@ class Aside:
                 data = bytes(block.data[start:end])
                 try:
                     if told:
-                        node = self._plant()
-                        self.latency = diagnostics.latencies(data, node) or self.latency
+                        said = diagnostics.told(data, self._namespace())
+                        self.latency = said.latency or self.latency
+                        for report in said.reports:
+                            self.costs.add(report)
                     elif reset:
                         begun = begun_again.stamp(data)
                         if begun not in self.begun_again:  # told again by a plant started again
@@ -57,9 +60,8 @@ class Aside:
                         f"{self.bag.path}: {source.topic} at {stamp / SECOND:g} s: {error}"
                     ) from error
 
-    def _plant(self) -> str:
-        namespace = self.bag.metadata.get(INFO, {}).get("namespace", "").strip("/")
-        return f"{namespace}/{PlantSimulator.name}" if namespace else PlantSimulator.name
+    def _namespace(self) -> str:
+        return self.bag.metadata.get(INFO, {}).get("namespace", "").strip("/")
 
 
 def told_of_resets(about: dict[str, str], aside: Aside) -> dict[str, str]:

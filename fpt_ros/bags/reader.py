@@ -55,7 +55,8 @@ def read_run(path: Path) -> Run:
         raise BadInput(f"{path} holds no messages on the loop's topics: {loop}")
     ending = contents.ending(bag)
     about = contents.told_of_resets({**about, **ending}, aside)
-    return Run(about, parameters, topics, aside.latency, tuple(aside.changes))
+    costs = aside.costs.result()
+    return Run(about, parameters, topics, aside.latency, tuple(aside.changes), costs)
 
 
 def play(path: Path, consumers: Callable[[Mapping[str, Values]], Sequence[Consumer]]) -> Run:
@@ -125,5 +126,6 @@ def info(path: Path) -> dict[str, object]:
         },
         "files": [file.name for file in bag.files],
         "size": on_disk(path),
+        "costs": [cost.numbers() for cost in aside.costs.result()],
         "parameters": parameters,
     }

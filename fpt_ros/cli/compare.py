@@ -72,8 +72,8 @@ def compare(
 
     Example: fpt compare panda --tune --out /tmp/panda
     """
+    from fpt_ros.cli.interrupts import collected
     from fpt_ros.cli.output import console, print_json
-    from fpt_ros.cli.simulate import interrupts
     from fpt_ros.cli.sweep import progress
     from fpt_ros.compare import compare as comparisons
     from fpt_ros.compare.page import as_json, write_page
@@ -105,7 +105,7 @@ def compare(
     )
     directory = out or Path(f"{asked.plan.field.experiment.name}-compare")
     started = perf_counter()
-    with interrupts() as interrupted, LocalPool(local_workers(workers)) as pool:
+    with collected() as interrupted, LocalPool(local_workers(workers)) as pool:
         title = f"compare {asked.plan.field.experiment.name}"
         with progress(title, asked.size, "controllers") as bar:
 

@@ -26,6 +26,7 @@ def info(bag: Bag, json: Json = False, parameters: Parameters = False) -> None:
     from fpt_ros.bags import parameter_text, reader
     from fpt_ros.cli.output import console, print_json
     from fpt_ros.errors import BadInput
+    from fpt_ros.runs.cost import HEADINGS, row
 
     content: dict[str, Any] = dict(reader.info(bag))
     if parameters:
@@ -41,6 +42,7 @@ def info(bag: Bag, json: Json = False, parameters: Parameters = False) -> None:
 
     out = console()
     nodes, topics = content.pop("parameters"), content.pop("topics")
+    costs = content.pop("costs")
     lines = {"missing": content.pop("missing"), "note": content.pop("notes")}
     table = Table(box=None, show_header=False, pad_edge=False)
     for key, value in content.items():
@@ -53,6 +55,14 @@ def info(bag: Bag, json: Json = False, parameters: Parameters = False) -> None:
     for topic, each in topics.items():
         counts.add_row(topic, each["type"], str(each["messages"]))
     out.print(counts)
+    if costs:
+        taken = Table(box=None, pad_edge=False)
+        taken.add_column(HEADINGS[0], overflow="fold")
+        for heading in HEADINGS[1:]:
+            taken.add_column(Text(heading), justify="right")
+        for cost in costs:
+            taken.add_row(*row(cost))
+        out.print(taken)
     for node, values in nodes.items():
         words = ", ".join(f"{name}={value}" for name, value in values.items())
         out.print(Text(f"{node}: {words}"), soft_wrap=True)

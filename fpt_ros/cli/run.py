@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from fpt_ros.cli.gain import warn_about_gain
+from fpt_ros.cli.interrupts import at_once
 from fpt_ros.cli.options import (
     Duration,
     Json,
@@ -89,8 +90,10 @@ def run(
     from fpt_ros.bags.split import Split as Parsed
     from fpt_ros.cli.output import print_json, print_result
     from fpt_ros.experiments.description import NODE
+    from fpt_ros.nodes.namespace import check
 
-    experiment = experiment_of(name, variant, set_, duration, seed)
+    with at_once():
+        experiment = experiment_of(name, variant, set_, duration, seed)
     if split:
         Parsed.parse(split)
         experiment = experiment.with_values(NODE, split=split)
@@ -98,12 +101,13 @@ def run(
         realtime = True
         experiment = experiment.with_values("plant_simulator", speed=speed)
         experiment.loop()  # checks it
-    _check_namespace(namespace)
+    check(namespace)
     robot = _robot(no_plant, composed, states, efforts, duration)
     part = _part(only, composed, record)
     if record is not None:
         check_new_directory(record)
-    experiment = warn_about_gain(experiment)
+    with at_once():
+        experiment = warn_about_gain(experiment)
     with tempfile.TemporaryDirectory(prefix="fpt_ros-") as folder:
         bag = record or (Path(folder) / "recording" if part is None else None)
         result, failure = run_recorded(
@@ -229,15 +233,3 @@ def _part(only: str, composed: bool, record: Path | None) -> "Part | None":
     if only and composed:
         raise BadInput("--only excludes --composed, which is all nodes in one process")
     return Part.parse(only, record is not None) if only else None
-
-
-def _check_namespace(namespace: str) -> None:
-    import re
-
-    from fpt_ros.errors import BadInput
-
-    if namespace and not re.fullmatch(r"/?[A-Za-z_]\w*(/[A-Za-z_]\w*)*", namespace):
-        raise BadInput(
-            f"--namespace '{namespace}' is not a ROS namespace: words of letters, digits and _, "
-            "joined by /"
-        )

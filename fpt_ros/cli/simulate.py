@@ -1,11 +1,10 @@
 """``fpt simulate``."""
 
-import signal
-from collections.abc import Iterator
-from contextlib import ExitStack, contextmanager
+from contextlib import ExitStack
 from time import perf_counter
 
 from fpt_ros.cli.gain import warn_about_gain
+from fpt_ros.cli.interrupts import at_once, collected
 from fpt_ros.cli.options import (
     Duration,
     Json,
@@ -32,32 +31,40 @@ def simulate(
 
     Example: fpt simulate tora --variant strong --set fpt_deformer.A=-2 --record /tmp/tora
     """
-    experiment = experiment_of(name, variant, set_, duration, seed)
-    if record is not None:
-        check_new_directory(record)
-    warn_about_gain(experiment)
-    from fpt_ros.analysis.metrics import Metrics
-    from fpt_ros.bags.recording import EngineRecording
-    from fpt_ros.cli.output import print_result, progress_bar
-    from fpt_ros.engine.engine import Engine
-    from fpt_ros.errors import Interrupted, RunFailed
-    from fpt_ros.runs.chunks import Consumer
-    from fpt_ros.runs.run import describe
+    with at_once():
+        experiment = experiment_of(name, variant, set_, duration, seed)
+        if record is not None:
+            check_new_directory(record)
+        warn_about_gain(experiment)
+        from fpt_ros.analysis.metrics import Metrics
+        from fpt_ros.bags.recording import EngineRecording
+        from fpt_ros.cli.output import print_result, progress_bar
+        from fpt_ros.engine.engine import Engine
+        from fpt_ros.errors import Interrupted, RunFailed
+        from fpt_ros.runs.chunks import Consumer
+        from fpt_ros.runs.run import describe
 
+        started = perf_counter()
+        loop = experiment.loop()
     failure: RunFailed | Interrupted | None = None
-    started = perf_counter()
-    loop = experiment.loop()
     metrics = Metrics(experiment.nodes)
     consumers: list[Consumer] = [metrics]
     title = f"{experiment.name} {experiment.variant}"
     with ExitStack() as stack:
-        interrupted = stack.enter_context(interrupts())
         recording = None
         if record is not None:
             recording = stack.enter_context(EngineRecording(record, experiment))
             consumers.append(recording)
         bar = stack.enter_context(progress_bar(title, loop.plant.cycles))
-        engine = Engine(loop, consumers=consumers)
+
+        def give_up() -> None:
+            if recording is not None:
+                recording.reason = "interrupted in cycle 0"
+            stack.close()
+
+        with at_once(give_up):
+            engine = Engine(loop, consumers=consumers)
+        interrupted = stack.enter_context(collected())
 
         def progress(cycle: int) -> None:
             bar(cycle)
@@ -86,14 +93,3 @@ def simulate(
     )
     if failure is not None:
         raise failure
-
-
-@contextmanager
-def interrupts() -> Iterator[list[int]]:
-    """Collect Ctrl-C instead of raising it anywhere: the engine ends between two cycles."""
-    seen: list[int] = []
-    before = signal.signal(signal.SIGINT, lambda number, frame: seen.append(number))
-    try:
-        yield seen
-    finally:
-        signal.signal(signal.SIGINT, before)

@@ -68,7 +68,7 @@ def sweep(
 
     Example: fpt sweep tora --grid fpt_deformer.A=-0.1:-6:64 --out /tmp/tora
     """
-    from fpt_ros.cli.simulate import interrupts
+    from fpt_ros.cli.interrupts import collected
     from fpt_ros.errors import Interrupted
     from fpt_ros.sweep import sweep as sweeps
     from fpt_ros.sweep.definition import define
@@ -80,7 +80,7 @@ def sweep(
     title = f"{asked.experiment.name} {asked.experiment.variant}"
     directory = out or Path(f"{asked.experiment.name}-sweep")
     started = perf_counter()
-    with interrupts() as interrupted, pool(scheduler, workers) as executor:
+    with collected() as interrupted, pool(scheduler, workers) as executor:
         resumed = open_directory(asked.definition, directory)
         known: list[int] = []  # runs that were there before
         with progress(title, asked.size) as bar:

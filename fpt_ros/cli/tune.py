@@ -60,7 +60,7 @@ def tune(
 
     Example: fpt tune tora --over fpt_deformer.A,trajectory_generator.lambda --limit chatter=0.02
     """
-    from fpt_ros.cli.simulate import interrupts
+    from fpt_ros.cli.interrupts import collected
     from fpt_ros.errors import BadInput, Interrupted
     from fpt_ros.sweep import tune as tuning
     from fpt_ros.sweep.executor import keep_memory
@@ -77,7 +77,7 @@ def tune(
     check_overlay(path)
     keep_memory()
     started = perf_counter()
-    with interrupts() as interrupted, _progress(f"tuning {name}", trials) as bar:
+    with collected() as interrupted, _progress(f"tuning {name}", trials) as bar:
 
         def look(done: int, best: float) -> None:
             bar(done)

@@ -25,6 +25,7 @@ from fpt_ros.cycle.stages import STAGES
 from fpt_ros.errors import BadInput, RunFailed
 from fpt_ros.messages.topics import JOINT_STATES
 from fpt_ros.nodes import doctor, middleware
+from fpt_ros.nodes.namespace import check
 from fpt_ros.nodes.snapshot import KNOWN, OF_ROS
 from fpt_ros.nodes.stage_node import CHANGES
 from fpt_ros.parameters import Value
@@ -243,8 +244,9 @@ def graph(namespace: str = "") -> Iterator[Graph]:
     """The running graph of a namespace.
 
     Raises:
-        BadInput: this machine has no DDS to offer.
+        BadInput: there is no such namespace, or this machine has no DDS to offer.
     """
+    check(namespace)
     doctor.check_fit()
     middleware.configure()
     context = Context()

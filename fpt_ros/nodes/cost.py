@@ -1,8 +1,11 @@
 """What the process of a node takes of the machine, for /diagnostics."""
 
 import os
+import socket
 from pathlib import Path
 from time import monotonic, process_time
+
+from fpt_ros.runs.cost import MEMORY, PROCESS, PROCESSOR
 
 _PAGE = os.sysconf("SC_PAGE_SIZE")
 
@@ -12,6 +15,7 @@ class Cost:
 
     def __init__(self) -> None:
         self._since = monotonic(), process_time()
+        self._process = f"{os.getpid()}@{socket.gethostname()}"
 
     def values(self) -> dict[str, str]:
         """Share of one core since the last call, and the memory that is resident now."""
@@ -19,4 +23,8 @@ class Cost:
         self._since = now
         share = (now[1] - cpu) / max(now[0] - wall, 1e-3)
         resident = int(Path("/proc/self/statm").read_text().split()[1]) * _PAGE
-        return {"processor [%]": f"{100 * share:.1f}", "memory [MB]": f"{resident / 1e6:.1f}"}
+        return {
+            PROCESS: self._process,
+            PROCESSOR: f"{100 * share:.1f}",
+            MEMORY: f"{resident / 1e6:.1f}",
+        }

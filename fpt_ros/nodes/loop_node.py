@@ -13,6 +13,7 @@ from rclpy.subscription import Subscription
 
 from fpt_ros.messages.topics import Topic
 from fpt_ros.nodes.cost import Cost
+from fpt_ros.nodes.parameter_service import AnsweringParameterService
 from fpt_ros.nodes.qos import loop_qos
 from fpt_ros.nodes.run_folder import introduce
 from fpt_ros.nodes.sender import UNKNOWN, Sender
@@ -67,7 +68,8 @@ class LoopNode(Node):
     """
 
     def __init__(self, name: str) -> None:
-        super().__init__(name)
+        super().__init__(name, start_parameter_services=False)
+        self._answering = AnsweringParameterService(self)
         self.loop_subscriptions: list[Subscription] = []
         self.loop_group = LoopGroup()
         self.finished = self.newest_counts = False

@@ -5,7 +5,10 @@ is read once, when it starts: it is configured with nothing left to do, and does
 """
 
 from collections.abc import Callable
+from typing import Any
 
+from lifecycle_msgs.srv import ChangeState
+from rclpy.impl.implementation_singleton import rclpy_implementation
 from rclpy.lifecycle import LifecycleNodeMixin, LifecycleState, TransitionCallbackReturn
 
 from fpt_ros.nodes.loop_node import LoopNode
@@ -21,8 +24,25 @@ class ManagedNode(LifecycleNodeMixin, LoopNode):
     def __init__(self, name: str) -> None:
         LoopNode.__init__(self, name)
         LifecycleNodeMixin.__init__(self)
+        for service in self.services:
+            if service.srv_type is ChangeState:
+                service.callback = self._refusing(service.callback)
         self.active = False
         self._failure: Exception | None = None
+
+    def _refusing(self, change: Callable[..., Any]) -> Callable[..., Any]:
+        """Rclpy raises where a state has no such transition: the run would end with the node."""
+
+        def answer(request: ChangeState.Request, response: ChangeState.Response) -> Any:
+            try:
+                return change(request, response)
+            except rclpy_implementation.RCLError:
+                asked = request.transition.label or request.transition.id
+                self.ignore(f"transition {asked}, which its state does not have")
+                response.success = False
+                return response
+
+        return answer
 
     def start_itself(self) -> None:
         """Configure and activate, as somebody else does without ``autostart``."""

@@ -123,6 +123,11 @@ def descriptor(parameter: Parameter) -> ParameterDescriptor:
     return result
 
 
+def of_node(node: Node, name: str, value: Value) -> RosParameter:
+    """A value of a node's parameter, of the declared type: an empty list does not tell its own."""
+    return RosParameter(name, RosParameter.Type(node.describe_parameter(name).type), value)
+
+
 def watch(node: Node, accept: Callable[[Mapping[str, Value]], None]) -> None:
     """Call ``accept`` with every change asked for in flight; its BadInput refuses the change."""
 

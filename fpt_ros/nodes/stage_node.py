@@ -5,7 +5,6 @@ from time import time_ns
 from typing import Any
 
 from rcl_interfaces.msg import ParameterEvent
-from rclpy.parameter import Parameter as RosParameter
 from std_srvs.srv import Trigger
 
 from fpt_ros.cycle.arrivals import Arrivals
@@ -21,7 +20,7 @@ from fpt_ros.nodes.process import report_progress
 from fpt_ros.nodes.qos import LATEST, heard_qos, loop_qos, sensor_qos
 from fpt_ros.nodes.recent import Recent
 from fpt_ros.nodes.reset import BEGIN_AGAIN
-from fpt_ros.nodes.ros_parameters import declare, watch
+from fpt_ros.nodes.ros_parameters import declare, of_node, watch
 from fpt_ros.nodes.run_over import end_with_plant
 from fpt_ros.parameters import Value
 
@@ -43,7 +42,7 @@ class ParameterisedNode(ManagedNode):
         self.stage: Any = kind({**given, **changed}, cycles[-1].state if cycles else None)
         self._pending = dict(self._kept.pending)
         known = {**changed, **self._pending}
-        self.set_parameters([RosParameter(name, value=value) for name, value in known.items()])
+        self.set_parameters([of_node(self, name, value) for name, value in known.items()])
         self._changes = self.create_publisher(ParameterEvent, CHANGES, loop_qos())
         self._publish = self.advertise(kind.output) if self.publishes else None
         self._recent = Recent(self, kind.output)
@@ -119,7 +118,7 @@ class ParameterisedNode(ManagedNode):
         event = ParameterEvent(node=self.get_fully_qualified_name())
         event.stamp.sec, event.stamp.nanosec = divmod(stamp, SECOND)
         event.changed_parameters = [
-            RosParameter(name, value=value).to_parameter_msg() for name, value in changes.items()
+            of_node(self, name, value).to_parameter_msg() for name, value in changes.items()
         ]
         self._changes.publish(event)
 

@@ -11,6 +11,7 @@ from fpt_ros.experiments.experiment import Experiment
 from fpt_ros.messages.frames import SECOND, Names
 from fpt_ros.parameters import Value
 from fpt_ros.runs.changes import Change
+from fpt_ros.runs.cost import Cost
 from fpt_ros.runs.latency import Latencies
 
 Array = NDArray[np.float64]
@@ -70,6 +71,7 @@ class Run:
         topics: by topic name; one that nobody published is absent.
         latency: from sensor to command, of a run in real time.
         changes: of parameters in flight, in the order in which they came.
+        costs: what its processes took of the machine, where they told it.
     """
 
     info: Mapping[str, str]
@@ -77,6 +79,7 @@ class Run:
     topics: Mapping[str, Series]
     latency: Latencies | None = None
     changes: tuple[Change, ...] = ()
+    costs: tuple[Cost, ...] = ()
 
 
 def describe(experiment: Experiment, engine: str, reason: str) -> dict[str, str]:

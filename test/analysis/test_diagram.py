@@ -5,7 +5,7 @@ from xml.etree import ElementTree
 import pytest
 
 from fpt_ros.analysis.diagram import svg
-from fpt_ros.cli.main import _main
+from fpt_ros.cli.app import run_command
 from fpt_ros.experiments.experiment import available, load
 
 SVG = "{http://www.w3.org/2000/svg}"
@@ -53,7 +53,7 @@ def test_laws_delays_and_units_are_named():
 
 
 def test_the_command_writes_a_file_or_says_why_not(tmp_path, capsys):
-    assert _main(["diagram", "tora", "--out", str(tmp_path / "a" / "tora.svg")]) == 0
+    assert run_command(["diagram", "tora", "--out", str(tmp_path / "a" / "tora.svg")]) == 0
     assert (tmp_path / "a" / "tora.svg").read_text().startswith("<svg")
-    assert _main(["diagram", "tora", "--out", str(tmp_path / "tora.pdf")]) == 2
+    assert run_command(["diagram", "tora", "--out", str(tmp_path / "tora.pdf")]) == 2
     assert "ends with .svg" in capsys.readouterr().err

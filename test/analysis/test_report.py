@@ -82,6 +82,7 @@ def test_summary_file_is_strict_json(written, pair):
 
     found = json.loads((written / "summary.json").read_text(), parse_constant=refuse)
     performance = [run.pop("performance") for run in found["runs"]]
+    assert [run.pop("costs") for run in found["runs"]] == [[], []]
     assert found["runs"] == [summary(run) for run in pair]
     assert set(performance[0]) == {"q1", "q2", "q3"}
     assert performance[0]["q3"]["iae"] > 10 * performance[1]["q3"]["iae"]

@@ -12,12 +12,13 @@ from messages_made import message, same
 from recorded_run import INFO, Recorded
 from rosbags.typesys import Stores, get_typestore
 
-from fpt_ros.bags import reader
+from fpt_ros.bags import changes, reader, schemas
 from fpt_ros.bags.writer import BagWriter
 from fpt_ros.errors import BadInput
 from fpt_ros.messages.cdr import Codec
 from fpt_ros.messages.frames import Command, Desired
 from fpt_ros.messages.topics import COMMAND, DESIRED, JOINT_STATE
+from fpt_ros.runs.cost import MEMORY, PROCESS, PROCESSOR
 from fpt_ros.runs.latency import CYCLES, HISTOGRAM, LARGEST, MISSED
 
 TIME_POINTS = [0, 1_000_000, 2_000_000]
@@ -130,6 +131,56 @@ def test_the_last_word_of_the_plant_on_its_latencies(tmp_path: Path, namespace: 
     assert found.quantile(0.99) == pytest.approx(10**-3.4, rel=0.06)
 
 
+@pytest.mark.parametrize("namespace", ["/", "/robot1"])
+def test_what_the_nodes_of_the_run_take_of_the_machine(tmp_path: Path, namespace: str) -> None:
+    """Of the same domain another robot, a driver, and nodes of a version that did not tell it."""
+    path, inside = tmp_path / "bag", namespace.strip("/")
+    node = f"{inside}/denoiser".lstrip("/")
+    with BagWriter(path, {"node": {"a": 1}}, {"namespace": namespace}) as bag:
+        bag.write(f"{namespace.rstrip('/')}/joint_states", JOINT_STATE, 0, message(0))
+        for data in (
+            told(node, **{PROCESS: "1@a", PROCESSOR: "12.5", MEMORY: "80.5"}),
+            told("robot2/denoiser", **{PROCESS: "2@a", PROCESSOR: "99.0", MEMORY: "1.0"}),
+            told(node, **{PROCESS: "1@a", PROCESSOR: "7.5", MEMORY: "81.0"}),
+            told(node, cycles=3),
+            told(f"{node}: camera", **{PROCESSOR: "much"}),
+        ):
+            bag.write("/diagnostics", DIAGNOSTICS, 0, data)
+    assert reader.info(path)["costs"] == [
+        {
+            "nodes": ["denoiser"],
+            "reports": 2,
+            "processor_mean_percent": 10.0,
+            "processor_max_percent": 12.5,
+            "memory_start_mb": 80.5,
+            "memory_end_mb": 81.0,
+            "memory_growth_mb": 0.5,
+        }
+    ]
+    (cost,) = reader.read_run(path).costs
+    assert cost.growth == 0.5
+
+
+def test_a_list_that_was_emptied_in_flight_and_told_as_one_of_bytes(tmp_path: Path) -> None:
+    """As nodes did before they knew of it: rclpy takes an empty list for one of bytes."""
+    path, kind, types = tmp_path / "bag", changes.TYPE, schemas.types()
+    empty = types["rcl_interfaces/msg/ParameterValue"](type=5, **changes._EMPTY)
+    parameter = types["rcl_interfaces/msg/Parameter"](name="safe_effort", value=empty)
+    stamp = types["builtin_interfaces/msg/Time"](sec=1, nanosec=0)
+    event = types[kind](
+        stamp=stamp,
+        node="/fpt_deformer",
+        new_parameters=[],
+        changed_parameters=[parameter],
+        deleted_parameters=[],
+    )
+    with BagWriter(path, {"node": {"a": 1}}, {}) as bag:
+        bag.write("/joint_states", JOINT_STATE, 0, message(0))
+        bag.write("/parameter_changes", kind, 0, schemas.encode(kind, event))
+    (change,) = reader.read_run(path).changes
+    assert change.values == {"safe_effort": []}
+
+
 def test_in_lockstep_there_are_no_latencies(recorded: Recorded) -> None:
     assert reader.read_run(recorded.directory).latency is None
 
@@ -140,6 +191,7 @@ def test_in_lockstep_there_are_no_latencies(recorded: Recorded) -> None:
         HISTOGRAM.encode(),
         told("plant_simulator", **timed("nothing")),
         told("plant_simulator", **{**timed("0.3:1"), CYCLES: "many"}),
+        told("denoiser", **{PROCESSOR: "much", MEMORY: "80.5"}),
     ],
 )
 def test_diagnostics_that_are_none(tmp_path: Path, data: bytes) -> None:
@@ -175,6 +227,7 @@ def test_info(recorded: Recorded) -> None:
     assert about["duration"] == pytest.approx(0.999)
     assert about["start"] == 0.0
     assert about["messages"] == len(recorded.frames)
+    assert about["costs"] == []
     assert about["topics"]["/command"]["messages"] == 1000  # type: ignore[index]
     assert about["size"] == sum(path.stat().st_size for path in recorded.directory.iterdir())
     assert about["files"] == ["tora_0.mcap"]

@@ -13,7 +13,7 @@ from command import BIN, TIMEOUT
 from tables.kinds import LOST, NAMELESS, PLAIN, ROWS, WHOLE, N, T, Y, text, with_line
 from tables.other_kinds import SAME, SOUND, sound
 
-from fpt_ros.cli.main import _main
+from fpt_ros.cli.app import run_command
 from fpt_ros.denoising.offline import denoise
 
 SAVGOL = ("--method", "savgol")
@@ -26,7 +26,7 @@ def run(tmp_path, monkeypatch, capsys):
 
     def denoise(content, *arguments, name="s.csv", expected=0):
         (tmp_path / name).write_bytes(content if isinstance(content, bytes) else content.encode())
-        status = _main(["denoise", name, *SAVGOL, *map(str, arguments)])
+        status = run_command(["denoise", name, *SAVGOL, *map(str, arguments)])
         said = capsys.readouterr()
         assert status == expected, said.err
         return said

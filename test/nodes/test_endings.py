@@ -4,7 +4,7 @@ import os
 import signal
 from contextlib import suppress
 from pathlib import Path
-from time import monotonic
+from time import monotonic, sleep
 
 import psutil
 import pytest
@@ -101,6 +101,25 @@ def test_interrupt(tmp_path, options):
     assert "interrupted" in run.info["reason"]
     assert len(run.topics["command"].stamps) > (0 if "--realtime" in options else 200)
     assert (tmp_path / "bag" / "metadata.yaml").is_file()
+
+
+def test_a_run_that_is_complete_on_a_busy_machine_is_one(tmp_path):
+    """From t = 0.2 s on its processes get a twelfth of the time, as beside dozens of busy ones."""
+    process = start_fpt("run", "tora", "--duration", 0.5, "--record", tmp_path / "bag")
+    with watcher() as graph:
+        graph.wait_for_stamp(0.2)
+    own = psutil.Process(process.pid)
+    processes = [own, *own.children(recursive=True)]
+    while process.poll() is None:
+        for told, seconds in ((psutil.Process.suspend, 0.055), (psutil.Process.resume, 0.005)):
+            for each in processes:
+                with suppress(psutil.NoSuchProcess):
+                    told(each)
+            sleep(seconds)
+    assert process.returncode == 0, ended(process)
+    run = read_run(tmp_path / "bag")
+    assert run.info["complete"] == "true"
+    assert len(run.topics["command"].stamps) == 500
 
 
 NODES = ["plant_simulator", "fpt_deformer", "parameter_tuner", "recorder"]

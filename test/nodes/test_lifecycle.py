@@ -36,6 +36,11 @@ def test_states_pauses_and_the_safe_effort(tmp_path):
         assert change(graph, PLANT, "configure")
         assert change(graph, PLANT, "activate")
         graph.wait_for_next()
+        for node in STAGES:  # what an active node has no such transition for harms nobody
+            for number in (Transition.TRANSITION_CONFIGURE, Transition.TRANSITION_CREATE, 255):
+                request = ChangeState.Request(transition=Transition(id=number))
+                assert not graph.call(ChangeState, f"/{node}/change_state", request).success
+            assert not change(graph, node, "nonsense")
         assert {state(graph, node) for node in STAGES} == {"active"}
         for node in (TRAJECTORY, PLANT):
             assert change(graph, node, "deactivate")

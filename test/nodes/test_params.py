@@ -4,8 +4,9 @@ import signal
 
 from command import forked_fpt, start_fpt
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
-from rcl_interfaces.msg import Log, Parameter, ParameterValue
-from rcl_interfaces.srv import SetParameters
+from rcl_interfaces.msg import Log, Parameter, ParameterEvent, ParameterType, ParameterValue
+from rcl_interfaces.srv import SetParameters, SetParametersAtomically
+from rclpy.parameter import Parameter as RosParameter
 from watcher import watcher
 
 from fpt_ros.experiments.parameter_file import read
@@ -75,11 +76,16 @@ def a_gain_that_does_not_contract(graph):
         DiagnosticArray, "/diagnostics", lambda m: health.update((s.name, s) for s in m.status), 10
     )
     unknown = SetParameters.Request(parameters=[Parameter(name="A", value=ParameterValue(type=77))])
-    client = graph.node.create_client(SetParameters, "/fpt_deformer/set_parameters")
-    assert client.wait_for_service(timeout_sec=60.0)
-    client.call_async(unknown)
-    while not any("a call that cannot be read" in text for text in said):
-        graph.executor.spin_once(timeout_sec=1.0)
+    (result,) = graph.call(SetParameters, "/fpt_deformer/set_parameters", unknown).results
+    assert not result.successful
+    assert result.reason.startswith("A: a value that cannot be read: ")
+    several = SetParametersAtomically.Request(
+        parameters=[RosParameter("A", value=-0.3).to_parameter_msg(), *unknown.parameters]
+    )
+    service = "/fpt_deformer/set_parameters_atomically"
+    assert not graph.call(SetParametersAtomically, service, several).result.successful
+    assert graph.get_parameter("fpt_deformer", "A") != -0.3
+    a_list_that_is_emptied(graph)
     done = ask("set", "fpt_deformer", "A=-5")
     assert done.returncode == 0
     assert done.stderr.startswith(f"fpt: warning: {outside}")
@@ -101,6 +107,25 @@ def a_gain_that_does_not_contract(graph):
         "not known here, fpt_deformer.approximate.m has"
         in ask("set", "fpt_deformer", "A=-0.2").stderr
     )
+
+
+def a_list_that_is_emptied(graph):
+    """ROS sends it as a list of bytes, and it is told as what it is."""
+    told = {}
+    graph.node.create_subscription(
+        ParameterEvent,
+        "/parameter_changes",
+        lambda m: told.update((each.name, each.value) for each in m.changed_parameters),
+        loop_qos(),
+    )
+    for text, numbers in (("[1.0, 1.0, 1.0]", [1.0] * 3), ("[]", [])):
+        done = ask("set", "fpt_deformer", f"safe_effort={text}")
+        assert (done.returncode, done.stderr) == (0, "")
+        assert list(graph.get_parameter("fpt_deformer", "safe_effort")) == numbers
+    forked_fpt("step")
+    while "safe_effort" not in told:
+        graph.executor.spin_once(timeout_sec=1.0)
+    assert told["safe_effort"].type == ParameterType.PARAMETER_DOUBLE_ARRAY
 
 
 def test_changes_are_watched(tmp_path):

@@ -5,9 +5,12 @@ import psutil
 from command import forked_fpt, start_fpt
 from command import forked_fpt_json as fpt_json
 from mcap_ros2.reader import read_ros2_messages
+from sensor_msgs.msg import JointState
 from watcher import watcher
 
 from fpt_ros.bags.reader import read_run
+from fpt_ros.cycle.stages import STAGES
+from fpt_ros.nodes.qos import loop_qos
 
 
 def node_of(process, name):
@@ -44,17 +47,38 @@ def test_cycles_follow_the_wall_clock(tmp_path):
     largest = max(float(r["latency max [ms]"]) for r in reports if "latency max [ms]" in r)
     assert 1e3 * told.largest == largest
     assert result["real_time"]["missed_deadlines"] == told.missed
+    is_told_what_its_processes_took(bag)
+
+
+def is_told_what_its_processes_took(bag):
+    """By `fpt info`, and on the page of the report and beside it."""
+    costs = fpt_json("info", bag)["costs"]
+    assert {name for cost in costs for name in cost["nodes"]} == {*STAGES, "recorder"}
+    assert len(costs) == 6
+    for cost in costs:
+        assert 0.0 <= cost["processor_mean_percent"] <= cost["processor_max_percent"] < 200.0
+        assert 20.0 < cost["memory_start_mb"] <= cost["memory_end_mb"] + 10.0
+    assert "growth" in forked_fpt("info", bag).stdout
+    report = bag.with_name("report")
+    assert fpt_json("report", bag, "--out", report)["costs"] == costs
+    page = (report / "index.html").read_text()
+    assert '<th scope="row">trajectory_generator</th>' in page
 
 
 HOLD = ("when_stopped=hold", "hold.stiffness=[40.0]", "hold.damping=[6.0]", "safe_effort=[0.5]")
 
 
 def test_a_loop_that_is_silent_or_stopped_holds_the_position(tmp_path):
-    """Another node stands still: the deformer holds by the measurement alone, and comes back."""
+    """Another node stands still: the deformer holds by the measurement alone, and comes back.
+
+    Where it stands still itself nobody holds: after its own command_timeout the plant applies its
+    own safe effort.
+    """
     settings = [word for each in HOLD for word in ("--set", f"fpt_deformer.{each}")]
     process = start_fpt(
         "run", "vdp_second_order", "--variant", "nonadaptive", "--realtime", "--duration", 1000,
-        "--record", tmp_path / "bag", "--set", "plant_simulator.dt=0.005", *settings,
+        "--record", tmp_path / "bag", "--set", "plant_simulator.dt=0.005",
+        "--set", "plant_simulator.safe_effort=0.25", *settings,
     )  # fmt: skip
     with watcher() as graph:
         graph.wait_for_next()
@@ -67,6 +91,10 @@ def test_a_loop_that_is_silent_or_stopped_holds_the_position(tmp_path):
         assert "the position is held" in forked_fpt("e-stop").stdout
         graph.stamp_after(1.0)
         stopped = graph.stamp_after(0.5)
+        node_of(process, "fpt_deformer").suspend()
+        unheard = states_without_commands(graph)
+        node_of(process, "fpt_deformer").resume()
+        graph.stamp_after(0.5)
         forked_fpt("stop")
     _, stderr = process.communicate(timeout=90)
     assert "diverged" not in stderr
@@ -81,6 +109,24 @@ def test_a_loop_that_is_silent_or_stopped_holds_the_position(tmp_path):
         assert len(efforts) > 5
         assert np.ptp(held) < 1e-9, held
     assert topics["desired"].stamps[-1] > silent  # it came back
+    acted, stamps = topics["joint_states"].column("effort", "q1"), topics["joint_states"].stamps
+    assert acted[stamps == unheard] == 0.25
+    assert (acted[stamps > unheard] != 0.25).any()  # it holds again
+
+
+def states_without_commands(graph):
+    """Stamp [ns] of the 100th measurement from now on: with none of the deformer's answers."""
+    stamps = []
+    subscription = graph.node.create_subscription(
+        JointState,
+        "/joint_states",
+        lambda m: stamps.append(m.header.stamp.sec * 10**9 + m.header.stamp.nanosec),
+        loop_qos(1),
+    )
+    while len(stamps) < 100:
+        graph.executor.spin_once()
+    graph.node.destroy_subscription(subscription)
+    return stamps[-1]
 
 
 def positions_held(command, stamps, q, v, until):

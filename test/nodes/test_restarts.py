@@ -41,13 +41,17 @@ def outcome(process):
     return json.loads(stdout), stderr
 
 
-def is_undisturbed(bag, result):
-    """Complete, every cycle there, and all equal to a run in process, to the last bit."""
-    assert info(bag)["complete"] is True
+def has_the_numbers_of_one_in_process(bag):
     assert info(bag)["missing"] == []
     (found,) = rerun(Recorded(bag)).values()
     assert found.equal
-    run = read_run(bag)
+    return read_run(bag)
+
+
+def is_undisturbed(bag, result):
+    """Complete, every cycle there, and all equal to a run in process, to the last bit."""
+    assert info(bag)["complete"] is True
+    run = has_the_numbers_of_one_in_process(bag)
     for name in TOPICS:
         if name in run.topics:
             assert len(run.topics[name].stamps) == result["cycles"]
@@ -119,6 +123,45 @@ def test_each_node_one_after_the_other_in_20_seconds(tmp_path, name, options):
     for topic, truth in engine.topics().items():
         for field, vector in truth.vectors.items():
             assert vector.tobytes() == run.topics[topic].vectors[field].tobytes()
+
+
+def test_a_plant_that_is_killed_in_a_pause_or_an_emergency_stop_is_still_in_it(tmp_path):
+    """An oscillator that bears the safe effort; who was there before may go on asking the dead."""
+    bag = tmp_path / "bag"
+    process = start_fpt("run", "vdp_second_order", "--duration", 1000, "--record", bag)
+
+    def ask(graph, service):
+        assert graph.call(Trigger, f"/{service}", Trigger.Request()).success
+
+    with watcher() as graph:
+        graph.wait_for_stamp(0.1)
+        ask(graph, "plant_simulator/pause")
+        stood = graph.stands_still()
+        node_of(process, "plant_simulator").kill()
+    with watcher() as graph:
+        ask(graph, "plant_simulator/step")
+        assert graph.stands_still() == stood + 1_000_000
+        ask(graph, "fpt_deformer/e_stop")
+        ask(graph, "plant_simulator/resume")
+        killed(process, "plant_simulator", graph)
+        assert graph.get_parameter("fpt_deformer", "stopped")
+    with watcher() as graph:
+        ask(graph, "plant_simulator/pause")
+        stopped = graph.stands_still()
+        ask(graph, "fpt_deformer/release")
+        ask(graph, "plant_simulator/step")
+        graph.stands_still()
+        ask(graph, "plant_simulator/stop")
+    _, stderr = process.communicate(timeout=PATIENCE)
+    assert process.returncode == 0, stderr
+    assert stderr.count("started again") == 2
+    run = has_the_numbers_of_one_in_process(bag)
+    (change, release) = run.changes
+    assert (change.values, release.values) == ({"stopped": True}, {"stopped": False})
+    assert stood < change.stamp < stopped <= release.stamp
+    command = run.topics["command"]
+    inside = (command.stamps >= change.stamp) & (command.stamps < release.stamp)
+    assert (command.vectors["effort"][inside] == 0.0).all()
 
 
 @pytest.mark.parametrize("most", samples.sample([1, 2], 0))

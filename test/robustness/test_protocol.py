@@ -5,7 +5,7 @@ import math
 
 import pytest
 
-from fpt_ros.cli.main import _main
+from fpt_ros.cli.app import run_command
 from fpt_ros.experiments.experiment import load
 from fpt_ros.robustness.protocol import CRITERIA, MODEL, Case, cases, changed
 from fpt_ros.robustness.scores import Result, perform, scores
@@ -57,9 +57,9 @@ def test_the_command_shows_both_and_draws(tmp_path, capsys):
     arguments = ["robustness", "duffing", "--variant", "adaptive", "--variant", "nonadaptive"]
     arguments += ["--points", "2", "--workers", "1", "--tolerance", "0.01", "--json"]
     picture = tmp_path / "bars.svg"
-    assert _main([*arguments, "--plot", str(picture)]) == 0
+    assert run_command([*arguments, "--plot", str(picture)]) == 0
     shown = json.loads(capsys.readouterr().out)
     assert shown["scores"]["adaptive"]["model"] > shown["scores"]["nonadaptive"]["model"]
     assert picture.read_text().startswith("<?xml")
-    assert _main(["robustness", "duffing", "--plot", "bars.pdf"]) == 2
+    assert run_command(["robustness", "duffing", "--plot", "bars.pdf"]) == 2
     assert "ends with .png or .svg" in capsys.readouterr().err

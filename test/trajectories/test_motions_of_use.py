@@ -137,10 +137,10 @@ def test_a_table_that_is_no_motion(tmp_path, rows, values, message):
 
 def test_a_motion_from_a_recording(tmp_path):
     """What one run did is what the next one is to do."""
-    from fpt_ros.cli.main import _main
+    from fpt_ros.cli.app import run_command
 
     bag = tmp_path / "bag"
-    assert _main(["simulate", "duffing", "--duration", "1.0", "--record", str(bag)]) == 0
+    assert run_command(["simulate", "duffing", "--duration", "1.0", "--record", str(bag)]) == 0
     from fpt_ros.bags.reader import read_run
 
     measured = read_run(bag).topics["joint_states"]
