@@ -4,6 +4,7 @@ import signal
 
 import numpy as np
 import pytest
+import samples
 from command import forked_fpt_json, fpt, start_fpt
 from mcap_ros2.reader import read_ros2_messages
 from stranger import frame, kinds, stranger
@@ -16,7 +17,7 @@ from fpt_ros.messages.topics import COMMAND, DESIRED, JOINT_STATES, LOOP_TOPICS,
 HEARD = {JOINT_STATES: 2, STATE_ESTIMATE: 3, DESIRED: 2, COMMAND: 2}
 """How many listen: those who use it, and the recorder. TORA has no tuner."""
 
-FLOOD = 4000
+FLOOD = 4000 if samples.whole else 1000
 
 
 def begun(tmp_path, *options):
