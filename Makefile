@@ -64,12 +64,11 @@ $(BIN)/uv: | $(BIN)/python
 demo: $(VENV)/.demo
 	@$(BIN)/fpt demo --out $(DEMO)
 
-# three workers on two cores: tests of graphs wait for a third of their time
 test: $(VENV)/.test $(VENV)/.node
-	@$(BIN)/python -m pytest -n 3 --dist worksteal
+	@$(BIN)/python -m pytest -n 2 --dist worksteal
 
 test-all: $(VENV)/.test $(VENV)/.node
-	@$(BIN)/python -m pytest -n 3 --dist worksteal --all
+	@$(BIN)/python -m pytest -n 2 --dist worksteal --all
 
 REV ?= HEAD
 same-bits: $(VENV)/.test

@@ -1,6 +1,7 @@
 """Every test has a ROS domain of its own, on this machine only: tests run side by side."""
 
 import fcntl
+import signal
 import tempfile
 from pathlib import Path
 
@@ -19,6 +20,8 @@ def pytest_addoption(parser):
 
 
 def pytest_configure(config):
+    # started in the background Ctrl-C is ignored, also by the commands that tests start
+    signal.signal(signal.SIGINT, signal.default_int_handler)
     samples.whole = config.getoption("--all")
     # no deadlines: a busy machine is slow at random
     settings.register_profile("sample", derandomize=True, deadline=None)
