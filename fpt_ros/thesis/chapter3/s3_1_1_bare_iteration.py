@@ -3,7 +3,7 @@
 import numpy as np
 
 from fpt_ros.analysis import style
-from fpt_ros.parameters import Value
+from fpt_ros.parameters import Value, resolve
 from fpt_ros.runs.run import Array, Run
 from fpt_ros.thesis import drawings as draw
 from fpt_ros.thesis.chapter3.s3_1_1_fixed_points import CONSTANTS, D, K
@@ -114,13 +114,13 @@ def _slope(u: float) -> float:
 
 def bifurcation_figure(runs: Runs) -> Drawn:
     """Where the bare iteration ends, over A."""
-    points_A, points_r = [], []
+    law, points_A, points_r = sgfpt.SGFPT, [], []
     for A in np.linspace(-6.36, -0.2, 620):
-        values: dict[str, Value] = {"A": float(A), "K": K, "D": D, "guard": False, "form": "signed"}
-        constants = sgfpt.SGFPT.prepare(values)
+        given: dict[str, Value] = {"A": float(A), "K": K, "D": D, "guard": False, "form": "signed"}
+        constants = law.prepare(resolve(law.parameters, given, "the bare iteration"))
         r = [-4.0]
         for i in range(260):
-            sgfpt.SGFPT.deform(constants, r, [r[0] + 3.0], [r[0]], [-3.0], r)
+            law.deform(constants, r, [r[0] + 3.0], [r[0]], [-3.0], r)
             if i >= 200:
                 points_A.append(float(A))
                 points_r.append(r[0])

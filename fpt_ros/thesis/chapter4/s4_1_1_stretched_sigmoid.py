@@ -11,7 +11,7 @@ from fpt_ros.thesis.claim import NO, YES, Claim, Drawn, Picture, Verdict
 from fpt_ros.thesis.measures import complete, end, settled_rms
 from fpt_ros.thesis.setup import Runs, Setup
 from fpt_ros.thesis.words import because
-from fpt_ros.transformations import atanh, sgfpt, stretched
+from fpt_ros.transformations import atanh, sgfpt, sigmoid, stretched
 
 STRETCHED = (
     "fpt_deformer.transformation=stretched",
@@ -47,7 +47,7 @@ def _defined_everywhere(runs: Runs) -> Verdict:
 def functions_figure(runs: Runs) -> Drawn:
     """The functions F of chapters 3 and 4."""
     x = np.linspace(-4.0, 4.0, 600)
-    zeros = (0.0,) * 4
+    zeros = (0.0,) * sigmoid.FIRST
     shown: tuple[tuple[str, Callable[[float], float]], ...] = (
         ("shifted, (3.1)", lambda v: sgfpt.generator((*zeros, 0.5, 0.6), v)),
         ("stretched, (4.1)", lambda v: stretched.generator((*zeros, 2.0, 0.5, 1.0, 0.0), v)),
