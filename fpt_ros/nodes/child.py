@@ -94,7 +94,7 @@ async def started(
         env={**environment(), VARIABLE: str(folder), **told},
         pass_fds=tuple(descriptors.values()),
         start_new_session=True,
-        preexec_fn=_die_with_parent,
+        preexec_fn=_before_it_starts,
     )
     return Child(name, process, began)
 
@@ -118,9 +118,13 @@ def environment() -> Mapping[str, str]:
     return {**defaults, **os.environ}
 
 
-def _die_with_parent() -> None:
-    """In the child: SIGTERM when the parent is gone, however it went."""
+def _before_it_starts() -> None:
+    """In the child: SIGTERM when the parent is gone, however it went; it waits until it is heard.
+
+    A recorder that is asked to end while it imports would be killed by it, its file not closed.
+    """
     ctypes.CDLL(None).prctl(PR_SET_PDEATHSIG, signal.SIGTERM)
+    signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGTERM})
 
 
 async def end(children: Sequence[Child], grace: float = GRACE) -> None:

@@ -28,6 +28,9 @@ from fpt_ros.nodes.robot import Robot
 STALL = 60.0
 """Seconds without a new cycle after which the graph is given up."""
 
+STUCK = 20.0
+"""The same where nodes were started again: they are then started once more."""
+
 RECORDER_GRACE = 10.0
 """Seconds that the recorder has to finish its file, before it is killed."""
 
@@ -127,6 +130,7 @@ class _Graph:
             self._plant = self._loop_names[-1] if self._loop_names else RECORDER
         self._progress = progress
         self._children: dict[str, Child] = {}
+        self._back: set[str] = set()  # started again, once
         self._stop = asyncio.Event()
         self._moved = self._began = 0.0
         self._cycle = 0
@@ -155,6 +159,8 @@ class _Graph:
                 os.write(reason_out, str(failure).encode()[:4000])
             if recorder is not None:
                 await end([recorder], RECORDER_GRACE)
+                if failure is None and (recorder.status or 0) < 0:
+                    recorder = await self._closed_by_another(recorder)
             for descriptor in (progress_in, progress_out, reason_in, reason_out):
                 os.close(descriptor)
         if failure is not None:
@@ -192,12 +198,17 @@ class _Graph:
                     self.tell(f"{child.how()}: started again")
                     await self._start(child.name)
                     self._moved = clock.time()
+                    self._back.add(child.name)
                 if self._robot is not None and self._cycle:
                     self._began = self._began or clock.time()
                     if clock.time() - self._began >= (self._robot.lasts or math.inf):
                         return None
                 if self._part is not None and not self._cycle:
                     self._moved = clock.time()  # the other hosts may begin later
+                if self._back and clock.time() - self._moved > STUCK:
+                    for name in self._back:  # DDS may not have found what it left behind
+                        self._children[name].process.kill()
+                    self._back.clear()
                 if clock.time() - self._moved > STALL:
                     return RunFailed(
                         f"no cycle was completed for {STALL:g} s: is DDS working between the "
@@ -205,6 +216,15 @@ class _Graph:
                     )
         finally:
             interrupted.cancel()
+
+    async def _closed_by_another(self, recorder: Child) -> Child:
+        """A recorder that was killed when all was recorded: the next one finishes the file."""
+        if self.restarts.allow(RECORDER, asyncio.get_running_loop().time()):
+            self.tell(f"{recorder.how()}: started again")
+            await self._start(RECORDER)
+            recorder = self._children.pop(RECORDER)
+            await end([recorder], RECORDER_GRACE)
+        return recorder
 
     async def _start(self, name: str) -> None:
         descriptors = self._descriptors.get(name, {})

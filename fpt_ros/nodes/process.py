@@ -20,6 +20,7 @@ class Stop:
     def __init__(self) -> None:
         for number in (signal.SIGINT, signal.SIGTERM):
             signal.signal(number, self._on_signal)
+        signal.pthread_sigmask(signal.SIG_UNBLOCK, {signal.SIGTERM})  # it may wait since the start
 
     def _on_signal(self, number: int, frame: object) -> None:
         self.signal = number

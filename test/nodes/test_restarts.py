@@ -2,7 +2,7 @@
 
 import json
 import signal
-from contextlib import ExitStack
+from contextlib import ExitStack, suppress
 from pathlib import Path
 
 import numpy as np
@@ -123,6 +123,18 @@ def test_each_node_one_after_the_other_in_20_seconds(tmp_path, name, options):
     for topic, truth in engine.topics().items():
         for field, vector in truth.vectors.items():
             assert vector.tobytes() == run.topics[topic].vectors[field].tobytes()
+
+
+def test_a_recorder_that_is_killed_when_the_plant_has_gone(tmp_path):
+    """All is recorded, but the file is not closed: the next one does it, though asked to end."""
+    process = start_fpt("run", "tora", "--duration", 0.3, "--record", tmp_path / "bag", "--json")
+    with watcher() as graph:
+        graph.wait_for_stamp(0.0)
+    node_of(process, "plant_simulator").wait(timeout=60)
+    with suppress(AssertionError, psutil.NoSuchProcess):  # it may have ended by itself
+        node_of(process, "recorder").kill()
+    result, _ = outcome(process)
+    is_undisturbed(tmp_path / "bag", result)
 
 
 def test_a_plant_that_is_killed_in_a_pause_or_an_emergency_stop_is_still_in_it(tmp_path):
