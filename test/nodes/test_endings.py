@@ -105,8 +105,8 @@ def test_interrupt(tmp_path, options):
 
 def test_a_run_that_is_complete_on_a_busy_machine_is_one(tmp_path):
     """From t = 0.2 s on its processes get a twelfth of the time, as beside dozens of busy ones."""
-    process = start_fpt("run", "tora", "--duration", 0.5, "--record", tmp_path / "bag")
-    with watcher() as graph:
+    with watcher() as graph:  # there before the run, which would be over when it is found
+        process = start_fpt("run", "tora", "--duration", 0.5, "--record", tmp_path / "bag")
         graph.wait_for_stamp(0.2)
     own = psutil.Process(process.pid)
     processes = [own, *own.children(recursive=True)]
