@@ -57,6 +57,14 @@ def helper(function: Function) -> Function:
 
 
 @helper
+def clipped(x: float, lowest: float, highest: float) -> float:
+    """The number nearest to x within the bounds; NaN stays."""
+    if x > highest:
+        return highest
+    return lowest if x < lowest else x
+
+
+@helper
 def norm(h: Vector) -> float:
     """Euclidean norm of a vector."""
     total = 0.0

@@ -12,7 +12,7 @@ from fpt_ros.cycle.deformation import DeformerConstants, DeformerMemory, Deforme
 from fpt_ros.cycle.holding import hold, let_go
 from fpt_ros.cycle.limits import ACTED, CLAMP, NO_ANTI_WINDUP, LimitWork
 from fpt_ros.cycle.rows import CommandRow, Estimated, Measured
-from fpt_ros.laws import Indices, MutableVector, Vector, helper
+from fpt_ros.laws import Indices, MutableVector, Vector, clipped, helper
 from fpt_ros.plants import Effort
 
 DISENGAGED = -1.0
@@ -133,14 +133,6 @@ def keep(memory: DeformerMemory, estimate: Estimated, out: CommandRow) -> None:
     for i in range(len(memory.unlimited)):
         memory.sent[last, i] = out.effort[i]
         memory.position[i], memory.velocity[i] = estimate.positions[i], estimate.velocities[i]
-
-
-@helper
-def clipped(x: float, lowest: float, highest: float) -> float:
-    """The number nearest to x within the bounds; NaN stays."""
-    if x > highest:
-        return highest
-    return lowest if x < lowest else x
 
 
 @helper

@@ -13,6 +13,7 @@ import re
 import shutil
 import warnings
 from collections.abc import Callable
+from contextlib import suppress
 from functools import cache, partial
 from pathlib import Path
 from time import time
@@ -226,11 +227,9 @@ def specialised_loop(function: Callable[..., Any], chosen: Laws) -> Callable[...
     signature = type_of(result)(*map(type_of, others.values()))
     with warnings.catch_warnings():
         warnings.filterwarnings("ignore", "First-class function type")
-        try:
-            if is_specialised(function, chosen):
+        if is_specialised(function, chosen):
+            with suppress(Exception):  # it is on disk for another processor, or spoilt
                 return cast(Callable[..., Any], _machine_code(scope["built_in"], signature))
-        except Exception:  # numba has many kinds: it is on disk for another processor, or spoilt
-            pass
         scope |= {f"law{i}": each for i, each in enumerate(_compiled_laws(function, chosen))}
         scope["loop"] = _loop(function)
         return cast(Callable[..., Any], _machine_code(scope["built_in"], signature))

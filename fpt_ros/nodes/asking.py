@@ -72,13 +72,15 @@ class Graph:
         """The answer of a service.
 
         Args:
-            name: ``NODE/SERVICE``.
+            kind: of the service.
+            name: ``NODE/SERVICE``, or the same with its namespace.
+            request: of that kind.
 
         Raises:
             BadInput: the graph is whole, and no such node is part of it.
             RunFailed: nobody offers it, or nobody answers.
         """
-        client = self._client(kind, name)
+        client, resolved = self._client(kind, name), self._node.resolve_service_name(name)
         deadline, whole = monotonic() + self._patience, 0.0
         while not client.service_is_ready():
             self._executor.spin_once(timeout_sec=0.02)
@@ -86,18 +88,18 @@ class Graph:
             if self._is_whole(here):
                 whole = whole or monotonic()
                 if monotonic() > whole + FURTHER:
-                    node, service = name.split("/", 1)
+                    node, _, service = resolved.rpartition("/")
                     raise BadInput(f"no node {node} offers {service}; there are {', '.join(here)}")
             if monotonic() > deadline:
                 raise RunFailed(
-                    f"nobody offers {self._node.resolve_service_name(name)}: is the graph "
-                    "running, in this ROS_DOMAIN_ID and --namespace?"
+                    f"nobody offers {resolved}: is the graph running, in this ROS_DOMAIN_ID and "
+                    "--namespace?"
                 )
         future = client.call_async(request)
         self._executor.spin_until_future_complete(future, timeout_sec=self._patience)
         if not future.done():
             client.remove_pending_request(future)
-            raise RunFailed(f"{self._node.resolve_service_name(name)} gives no answer")
+            raise RunFailed(f"{resolved} gives no answer")
         return future.result()
 
     def prepare(self, node: str) -> None:

@@ -130,7 +130,7 @@ class _Graph:
             self._plant = self._loop_names[-1] if self._loop_names else RECORDER
         self._progress = progress
         self._children: dict[str, Child] = {}
-        self._back: set[str] = set()  # started again, once
+        self._back: set[str] = set()  # nodes that were started again
         self._stop = asyncio.Event()
         self._moved = self._began = 0.0
         self._cycle = 0
@@ -206,8 +206,9 @@ class _Graph:
                 if self._part is not None and not self._cycle:
                     self._moved = clock.time()  # the other hosts may begin later
                 if self._back and clock.time() - self._moved > STUCK:
-                    for name in self._back:  # DDS may not have found what it left behind
-                        self._children[name].process.kill()
+                    for child in self._children.values():
+                        if child.name in self._back and child.status is None:
+                            child.process.kill()  # who is started then, is found
                     self._back.clear()
                 if clock.time() - self._moved > STALL:
                     return RunFailed(

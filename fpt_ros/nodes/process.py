@@ -68,7 +68,7 @@ def run_nodes(
     try:
         for factory in factories:
             nodes.append(_made(factory))
-        gc.freeze()  # a search for garbage takes 10 ms with all that is there from the start
+        gc.freeze()  # with all that is there by now, a search for garbage takes 40 ms
         spin(nodes, lambda: bool(stop.signal) or not context.ok(), context)
     finally:
         for node in nodes:

@@ -56,7 +56,10 @@ def test_parameters_of_a_running_graph(tmp_path):
             (("set", "fpt_deformer", "B=1"), "no parameter 'B'"),
             (("set", "fpt_deformer", "A"), "PARAM=VALUE"),
             (("get", "fpt_deformer", "nonsense"), "no parameter 'nonsense'"),
-            (("get", "deformer", "A"), "no node deformer offers describe_parameters; there are"),
+            (
+                ("get", "deformer", "A"),
+                "no node /deformer offers describe_parameters; there are",
+            ),
             (("load", before, "fpt_deforme"), "has no node fpt_deforme: it has plant_simulator"),
         ):
             done = ask(*words)

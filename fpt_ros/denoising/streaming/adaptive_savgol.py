@@ -14,6 +14,7 @@ import math
 
 from fpt_ros.denoising.offline.savgol import check, kernel
 from fpt_ros.denoising.streaming import ORDER, Filter
+from fpt_ros.denoising.streaming.fits import fit, kernels
 from fpt_ros.denoising.streaming.savgol import odd_window
 from fpt_ros.denoising.streaming.three_states import response_of
 from fpt_ros.errors import BadInput
@@ -80,13 +81,10 @@ def prepare(values: Values, n: int, dt: float) -> tuple[float, ...]:
         if window != size or degree != power:
             raise BadInput(f"windows and degrees are whole numbers, not {size:g} and {power:g}")
         check(window, degree, least_degree=max(1, order))
-        newest = float(window - 1)
-        ahead = kernel(window, degree, 0, newest + 1.0)
+        ahead = kernel(window, degree, 0, float(window))
         variance = sigma * sigma * (1.0 + float(ahead @ ahead))
         constants += [size, 1.0 / variance, math.log(variance)]
-        for derivative in range(3):
-            constants += kernel(window, degree, derivative, newest, dt)[::-1].tolist()
-        constants += ahead[::-1].tolist()
+        constants += kernels(window, degree, dt)
     return tuple(constants)
 
 
@@ -157,19 +155,9 @@ def update(
         for m in range(members):
             member = first + 2 * m
             window = int(constants[at])
-            k = at + _MEMBER
-            value = rate = curvature = ahead = 0.0
-            i = ring + head
-            for _ in range(window):
-                x = state[i] - newest
-                value += constants[k] * x
-                rate += constants[k + window] * x
-                curvature += constants[k + 2 * window] * x
-                ahead += constants[k + 3 * window] * x
-                k += 1
-                i -= 1
-                if i < ring:
-                    i += longest
+            value, rate, curvature, ahead = fit(
+                constants, at + _MEMBER, window, state, ring, longest, head
+            )
             weight = math.exp(0.5 * (best - state[member]))
             position += weight * value
             velocity += weight * rate

@@ -30,6 +30,7 @@ import math
 from fpt_ros.denoising.experts import DOUBT, WIDTH
 from fpt_ros.denoising.offline.savgol import check, kernel
 from fpt_ros.denoising.streaming import ORDER, Filter
+from fpt_ros.denoising.streaming.fits import fit, kernels
 from fpt_ros.denoising.streaming.savgol import odd_window
 from fpt_ros.denoising.streaming.supervisor import (
     HEADER,
@@ -118,8 +119,7 @@ def prepare(values: Values, n: int, dt: float) -> tuple[float, ...]:
     constants += DOUBT.constants()
     narrower = kernel(windows[0], degree, 0, float(windows[0]))[::-1]
     for window in windows:
-        newest = float(window - 1)
-        ahead = kernel(window, degree, 0, newest + 1.0)[::-1]
+        ahead = kernel(window, degree, 0, float(window))[::-1]
         variance = 1.0 + float(ahead @ ahead)
         # correlation of the two innovations; the variance of z - z' is 4 (1 - rho^2)
         rho = 1.0 + float(ahead[: len(narrower)] @ narrower)
@@ -127,9 +127,7 @@ def prepare(values: Values, n: int, dt: float) -> tuple[float, ...]:
         rest = 1.0 - rho * rho
         unit = math.sqrt(0.5 * window / rest) if len(ahead) > len(narrower) else 0.0
         constants += [float(window), 1.0 / variance, unit]
-        for derivative in range(3):
-            constants += kernel(window, degree, derivative, newest, dt)[::-1].tolist()
-        constants += ahead.tolist()
+        constants += kernels(window, degree, dt)
         narrower = ahead
     return tuple(constants)
 
@@ -196,32 +194,14 @@ def update(
         at = HEADER
         for m in range(members):
             window = int(constants[at])
-            k = at + MEMBER
-            value = rate = curvature = ahead = 0.0
-            i = ring + head
+            value, rate, curvature, ahead = fit(
+                constants, at + MEMBER, window, state, ring, longest, head
+            )
             share = 1.0 - abs(place - m)
             if share > 0.0:
-                for _ in range(window):
-                    x = state[i] - newest
-                    value += constants[k] * x
-                    rate += constants[k + window] * x
-                    curvature += constants[k + 2 * window] * x
-                    ahead += constants[k + 3 * window] * x
-                    k += 1
-                    i -= 1
-                    if i < ring:
-                        i += longest
                 position += share * value
                 velocity += share * rate
                 acceleration += share * curvature
-            else:
-                k += 3 * window
-                for _ in range(window):
-                    ahead += constants[k] * (state[i] - newest)
-                    k += 1
-                    i -= 1
-                    if i < ring:
-                        i += longest
             state[expected + m] = newest + ahead
             at += MEMBER + 4 * window
         out_q[c] = newest + position

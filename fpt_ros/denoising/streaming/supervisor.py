@@ -5,7 +5,7 @@ import math
 from fpt_ros.denoising.mamdani import SIZE, infer
 from fpt_ros.denoising.offline.noise import MAD
 from fpt_ros.denoising.streaming.kalman_bank import RECOVERED
-from fpt_ros.laws import MutableVector, Vector, helper
+from fpt_ros.laws import MutableVector, Vector, clipped, helper
 
 # places among the constants: shared ones and two rule bases, then by window these and four kernels
 WIDTH_RULES = 5
@@ -169,9 +169,3 @@ def supervise(constants: Vector, state: MutableVector, first: int) -> None:
     # the output of one rule alone is 1/6, 1/2 or 5/6
     place += 3.0 * constants[4] * (infer(constants, WIDTH_RULES, in_use, wider) - 0.5)
     state[first + PLACE] = clipped(place, 0.0, members - 1.0)
-
-
-@helper
-def clipped(x: float, least: float, most: float) -> float:
-    """The number of [least, most] nearest to x."""
-    return least if x < least else most if x > most else x
