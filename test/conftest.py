@@ -11,6 +11,8 @@ import pytest
 import samples
 from hypothesis import settings
 
+from fpt_ros.nodes import middleware
+
 DOMAINS = range(1, 101)
 """Those whose ports lie below the range that Linux hands out."""
 
@@ -42,6 +44,9 @@ def ros_domain(monkeypatch):
                 continue
             monkeypatch.setenv("ROS_DOMAIN_ID", str(domain))
             monkeypatch.setenv("ROS_AUTOMATIC_DISCOVERY_RANGE", "LOCALHOST")
+            for chosen in (middleware.VARIABLE, middleware.TRANSPORTS):
+                monkeypatch.setenv(chosen, "")  # undone at the end, whoever sets it
+                monkeypatch.delenv(chosen)
             yield domain
             command.end_started()  # before another test may have the domain
             return

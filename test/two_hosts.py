@@ -1,7 +1,6 @@
 """Two hosts on one machine: network namespaces with a cable between them.
 
-They share a machine id and /dev/shm, so that Fast DDS would talk past the cable through shared
-memory: nodes here speak UDP alone.
+They share a machine id and /dev/shm: shared memory would talk past the cable.
 """
 
 import ctypes
@@ -15,7 +14,6 @@ import pytest
 CLONE_NEWNET = 0x40000000
 ENVIRONMENT = {
     "ROS_AUTOMATIC_DISCOVERY_RANGE": "SUBNET",
-    "FASTDDS_BUILTIN_TRANSPORTS": "UDPv4",
 }
 
 

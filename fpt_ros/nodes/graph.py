@@ -19,7 +19,7 @@ from fpt_ros.cycle.stages import STAGES
 from fpt_ros.errors import FptError, Interrupted, RunFailed
 from fpt_ros.experiments.description import NODE as RECORDER
 from fpt_ros.experiments.experiment import Experiment
-from fpt_ros.nodes import cores, doctor, run_folder, shared_memory
+from fpt_ros.nodes import cores, doctor, run_folder
 from fpt_ros.nodes.child import Child, end, started
 from fpt_ros.nodes.part import Part
 from fpt_ros.nodes.restarts import Restarts
@@ -27,9 +27,6 @@ from fpt_ros.nodes.robot import Robot
 
 STALL = 60.0
 """Seconds without a new cycle after which the graph is given up."""
-
-STUCK = 20.0
-"""The same where nodes were started again: they are then started once more."""
 
 RECORDER_GRACE = 10.0
 """Seconds that the recorder has to finish its file, before it is killed."""
@@ -90,11 +87,10 @@ def run(
             arguments += robot.remappings()
         if namespace:
             arguments += ["-r", f"__ns:=/{namespace.strip('/')}"]
-        with shared_memory.left_as_found():
-            core = None if composed or realtime else cores.idlest()
-            graph = _Graph(arguments, composed, recorded, core, progress, robot, folder, part)
-            graph.restarts, graph.tell = restarts or Restarts(), tell
-            asyncio.run(graph.run())
+        core = None if composed or realtime else cores.idlest()
+        graph = _Graph(arguments, composed, recorded, core, progress, robot, folder, part)
+        graph.restarts, graph.tell = restarts or Restarts(), tell
+        asyncio.run(graph.run())
 
 
 class _Graph:
@@ -130,7 +126,6 @@ class _Graph:
             self._plant = self._loop_names[-1] if self._loop_names else RECORDER
         self._progress = progress
         self._children: dict[str, Child] = {}
-        self._back: set[str] = set()  # nodes that were started again
         self._stop = asyncio.Event()
         self._moved = self._began = 0.0
         self._cycle = 0
@@ -198,18 +193,12 @@ class _Graph:
                     self.tell(f"{child.how()}: started again")
                     await self._start(child.name)
                     self._moved = clock.time()
-                    self._back.add(child.name)
                 if self._robot is not None and self._cycle:
                     self._began = self._began or clock.time()
                     if clock.time() - self._began >= (self._robot.lasts or math.inf):
                         return None
                 if self._part is not None and not self._cycle:
                     self._moved = clock.time()  # the other hosts may begin later
-                if self._back and clock.time() - self._moved > STUCK:
-                    for child in self._children.values():
-                        if child.name in self._back and child.status is None:
-                            child.process.kill()  # who is started then, is found
-                    self._back.clear()
                 if clock.time() - self._moved > STALL:
                     return RunFailed(
                         f"no cycle was completed for {STALL:g} s: is DDS working between the "

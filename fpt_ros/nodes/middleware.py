@@ -1,4 +1,9 @@
-"""How Fast DDS makes sure of the loop's messages, and how nodes are found: ``fast_dds.xml``.
+"""How Fast DDS carries the loop's messages and finds its nodes: UDP, and two profiles.
+
+UDP on the loopback device, and no shared memory: that has ports in ``/dev/shm``, of all domains of a
+machine together, and a process that is killed may leave one broken: once in 270 such deaths the
+graph stood still for good, over UDP not once in 450. Who has shared memory as well (``ros2 topic``,
+other people's nodes) hears the graph over UDP.
 
 By default a reliable writer asks for a confirmation with every message, and restarts a timer of no
 duration for every reader. Each wakes a thread of one process or another: half of all context
@@ -11,14 +16,33 @@ it mostly took 2.4 s, until the next of these announcements.
 """
 
 import os
+from collections.abc import MutableMapping
 from pathlib import Path
 
 VARIABLE = "FASTRTPS_DEFAULT_PROFILES_FILE"
 """Where Fast DDS 2 looks for profiles; another version or middleware does not look there."""
 
+RANGE = "ROS_AUTOMATIC_DISCOVERY_RANGE"
+
+TRANSPORTS = "FASTDDS_BUILTIN_TRANSPORTS"
+
 PROFILE = Path(__file__).with_name("fast_dds.xml")
 
+LOCALHOST = Path(__file__).with_name("fast_dds_localhost.xml")
+"""The same, and nodes of this machine alone are looked for."""
 
-def configure() -> None:
-    """Choose the profile for this process, before its first node; the user's own counts more."""
-    os.environ.setdefault(VARIABLE, str(PROFILE))
+
+def configure(environment: MutableMapping[str, str] = os.environ) -> None:
+    """Choose for this process, before its first node; what the user has chosen counts more.
+
+    ROS makes transports of its own for the range LOCALHOST, with shared memory. So the profile says
+    what that range is, and ROS that it is as the profile says. Static peers are known to ROS alone.
+    """
+    if VARIABLE in environment or TRANSPORTS in environment:
+        environment.setdefault(VARIABLE, str(PROFILE))
+    elif environment.get(RANGE) == "LOCALHOST" and not environment.get("ROS_STATIC_PEERS"):
+        environment[VARIABLE] = str(LOCALHOST)
+        environment[RANGE] = "SYSTEM_DEFAULT"
+    else:
+        environment[VARIABLE] = str(PROFILE)
+        environment[TRANSPORTS] = "UDPv4"

@@ -1,13 +1,13 @@
-"""What DDS and tracing leave in /dev/shm, and taking it away.
+"""What killed processes leave in /dev/shm, and taking it away: ``fpt doctor --fix``.
 
-Fast DDS removes its segments when a process ends by itself; one that was killed leaves them (half a
+A graph of ours has the folder of its run there. Others' nodes talk over Fast DDS's shared memory,
+which removes its segments when a process ends by itself; one that was killed leaves them (half a
 megabyte each). LTTng, which rclpy links, leaves two empty files at its first start on a machine.
 Fast DDS's ports and semaphores stay: any process may open one by its name at any moment.
 """
 
 import re
-from collections.abc import Iterator
-from contextlib import contextmanager, suppress
+from contextlib import suppress
 from pathlib import Path
 from shutil import rmtree
 
@@ -16,17 +16,6 @@ NAMES = re.compile(r"fastrtps_[0-9a-f]{16}(_el)?|lttng-ust-wait-.*")
 
 RUN_FOLDER = "fpt_ros-{}-"
 """Begins the name of the folder of a run, by the process of ``fpt run``, which removes it."""
-
-
-@contextmanager
-def left_as_found() -> Iterator[None]:
-    """Remove, at the end, what has come meanwhile and no process uses any more."""
-    before = _files()
-    try:
-        yield
-    finally:
-        new = _files() - before
-        remove(new - (_used() if new else set()))
 
 
 def leftovers() -> set[Path]:

@@ -1,8 +1,11 @@
-"""The profile for Fast DDS: it is understood, and the user's own counts more."""
+"""The profiles for Fast DDS: they are understood, and the user's own counts more."""
 
 import os
 import subprocess
 import sys
+from xml.etree import ElementTree
+
+import pytest
 
 from fpt_ros.nodes import middleware
 
@@ -15,16 +18,18 @@ rclpy.init()
 node = rclpy.create_node("profile")
 node.create_publisher(String, "words", 1)
 print("up")
+print(open("/proc/self/maps").read())
 node.destroy_node()
 rclpy.shutdown()
 """
 
+SHARED_MEMORY = "/dev/shm/fastrtps"
+
 
 def output_of_a_participant(**environment):
-    ours = {name: x for name, x in os.environ.items() if name != middleware.VARIABLE}
     done = subprocess.run(
         [sys.executable, "-c", PARTICIPANT],
-        env={**ours, **environment},
+        env={**os.environ, **environment},
         stdout=subprocess.PIPE,
         stderr=subprocess.STDOUT,
         text=True,
@@ -35,8 +40,23 @@ def output_of_a_participant(**environment):
     return done.stdout
 
 
-def test_this_version_of_fast_dds_understands_the_profile():
-    assert "XMLPARSER" not in output_of_a_participant()
+@pytest.mark.parametrize("chosen", ["LOCALHOST", "SUBNET", "SYSTEM_DEFAULT", "OFF"])
+def test_this_version_of_fast_dds_understands_the_profile_and_takes_no_shared_memory(chosen):
+    output = output_of_a_participant(**{middleware.RANGE: chosen})
+    assert "XMLPARSER" not in output
+    assert SHARED_MEMORY not in output
+
+
+def test_the_users_own_transport_counts():
+    assert SHARED_MEMORY in output_of_a_participant(**{middleware.TRANSPORTS: "DEFAULT"})
+
+
+def test_static_peers_are_left_to_ros():
+    """It alone reads them, and makes its own transports for its range LOCALHOST."""
+    chosen = {middleware.RANGE: "LOCALHOST", "ROS_STATIC_PEERS": "127.0.0.1"}
+    middleware.configure(chosen)
+    assert chosen[middleware.RANGE] == "LOCALHOST"
+    assert chosen[middleware.VARIABLE] == str(middleware.PROFILE)
 
 
 def test_it_would_be_seen_if_it_did_not_and_the_users_own_counts(tmp_path):
@@ -45,3 +65,12 @@ def test_it_would_be_seen_if_it_did_not_and_the_users_own_counts(tmp_path):
     output = output_of_a_participant(**{middleware.VARIABLE: str(wrong)})
     assert "XMLPARSER" in output
     assert str(wrong) in output
+
+
+def test_both_profiles_say_the_same_of_writers_and_announcements():
+    both = [ElementTree.parse(path) for path in (middleware.PROFILE, middleware.LOCALHOST)]
+    for name in ("data_writer", "discovery_config"):
+        one, other = (tree.find(f".//{{*}}{name}") for tree in both)
+        assert ElementTree.canonicalize(ElementTree.tostring(one), strip_text=True) == (
+            ElementTree.canonicalize(ElementTree.tostring(other), strip_text=True)
+        )

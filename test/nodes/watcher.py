@@ -2,6 +2,7 @@
 
 from contextlib import contextmanager
 
+import pytest
 import rclpy
 from builtin_interfaces.msg import Time
 from rcl_interfaces.srv import GetParameters, SetParameters
@@ -9,6 +10,7 @@ from rclpy.context import Context
 from rclpy.executors import SingleThreadedExecutor
 from trajectory_msgs.msg import JointTrajectory
 
+from fpt_ros.nodes import middleware
 from fpt_ros.nodes.qos import loop_qos
 
 PATIENCE = 60.0
@@ -34,7 +36,7 @@ class Watcher:
         )
         self.executor.spin_until_future_complete(seen, timeout_sec=PATIENCE)
         self.node.destroy_subscription(subscription)
-        assert seen.done(), "the graph did not get there"
+        assert seen.done(), f"the graph did not get there: {self.sees()}"
 
     @contextmanager
     def acknowledgements(self):
@@ -71,7 +73,11 @@ class Watcher:
         )
         self.executor.spin_until_future_complete(first, timeout_sec=PATIENCE)
         self.node.destroy_subscription(subscription)
-        assert first.done(), "the graph stands still"
+        assert first.done(), f"the graph stands still: {self.sees()}"
+
+    def sees(self):
+        """For what to say where it has waited in vain."""
+        return self.node.get_node_names(), self.node.get_topic_names_and_types()
 
     def stamp_after(self, seconds):
         """The stamp [ns] of the first command that is so much younger than one seen now."""
@@ -128,8 +134,10 @@ class Watcher:
 @contextmanager
 def watcher():
     context = Context()
-    rclpy.init(context=context)
-    watching = Watcher(context)
+    with pytest.MonkeyPatch.context() as found_quickly:  # others may take 3 s to be found
+        found_quickly.setenv(middleware.VARIABLE, str(middleware.PROFILE))  # read once a process
+        rclpy.init(context=context)
+        watching = Watcher(context)
     try:
         yield watching
     finally:
