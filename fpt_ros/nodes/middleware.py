@@ -1,7 +1,7 @@
 """How Fast DDS carries the loop's messages and finds its nodes: UDP, and two profiles.
 
-UDP on the loopback device, and no shared memory: that has ports in ``/dev/shm``, of all domains of a
-machine together, and a process that is killed may leave one broken: once in 270 such deaths the
+UDP on the loopback device, and no shared memory: that has ports in ``/dev/shm``, of all domains of
+a machine together, and a process that is killed may leave one broken: once in 270 such deaths the
 graph stood still for good, over UDP not once in 450. Who has shared memory as well (``ros2 topic``,
 other people's nodes) hears the graph over UDP.
 

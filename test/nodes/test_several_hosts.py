@@ -34,7 +34,7 @@ def hosts(monkeypatch):
 
 
 def apart(test, *arguments):
-    """In a process of its own: Fast DDS keeps the interfaces that the first node of one has seen."""
+    """In a process of its own: Fast DDS keeps the interfaces that its first node has seen."""
     with ProcessPoolExecutor(1, get_context("spawn")) as process:
         process.submit(_tidy, test, *arguments).result()
 
