@@ -25,8 +25,8 @@ DOMAINS = range(233)
 SIOCGIFFLAGS = 0x8913
 """netdevice(7): the flags of a network interface, 1 of them: it is up."""
 
-SHM_NEEDED = 16 << 20
-"""Bytes in /dev/shm that six processes take."""
+SHM_NEEDED = 4 << 20
+"""Bytes in /dev/shm: nodes keep there what those need that are started in their place."""
 
 DISK_NEEDED = 100 << 20
 
