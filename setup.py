@@ -172,6 +172,7 @@ setup(
         ],
         "fpt_ros.trajectories": [
             "blended_sines = fpt_ros.trajectories.blended_sines:BLENDED_SINES",
+            "cartesian_path = fpt_ros.trajectories.cartesian_path:CARTESIAN_PATH",
             "chirp = fpt_ros.trajectories.chirp:CHIRP",
             "constant = fpt_ros.trajectories.constant:CONSTANT",
             "cosines = fpt_ros.trajectories.cosines:COSINES",

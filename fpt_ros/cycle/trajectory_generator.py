@@ -191,13 +191,13 @@ class TrajectoryGenerator(Stage):
             )
         self.trajectory = TRAJECTORIES[word(values, "trajectory")]
         self.relaxation = RELAXATIONS[word(values, RELAXATION.name)]
-        motion = list(self.trajectory.prepare(values, c))
+        self._motion = self.trajectory.prepare(values, c)  # and what its addresses point to
         decay = list(self.relaxation.prepare(values))
         self._entrance = Entrance(f"{self.name}, state_estimate", tuple(words(values, "joints")))
         self.entrances = {STATE_ESTIMATE.name: self._entrance}
         self._names: Names = ()
         late = self._delay()
-        self.constants = TrajectoryConstants(motion, decay, (), slots, self.relaxation.order, late)
+        self.constants = TrajectoryConstants(list(self._motion), decay, (), slots, self.relaxation.order, late)
         self._turns = [(name,) for name in self.controlled]
         layout = Layout(
             TrajectoryMemory, integral=c, error=c, turn=1, nominal=len(self.trajectory.state)

@@ -13,6 +13,12 @@ Nominal = Callable[
 """(constants, state, t, dt, out_q, out_v, out_a)"""
 
 
+class Constants(tuple[float, ...]):
+    """Constants with addresses among them: what they point to lives as long as they do."""
+
+    memory: tuple[object, ...] = ()
+
+
 @dataclass(frozen=True)
 class Trajectory:
     """Nominal motion of the controlled coordinates.
@@ -21,6 +27,7 @@ class Trajectory:
         prepare: ``prepare(values, c)``: checked parameters -> constants, for c coordinates.
             ``amplitude`` (in the unit of the coordinate) and ``frequency`` (a factor of time,
             [rad/s] for harmonic shapes) are parameters of every trajectory, lists of c numbers.
+            :class:`Constants` where addresses of C are among them.
         nominal: ``nominal(constants, state, t, dt, out_q, out_v, out_a)`` writes position, velocity
             and acceleration of each controlled coordinate at t [s], dt [s] after the cycle before
             (0 in the first): whatever the order of the plant, from which the stage takes the

@@ -35,6 +35,9 @@ PARAMETERS = (
 )
 """What plant and model have in common."""
 
+TOOL = "fpt_ros tool"
+"""The body that stands for the tool; its origin is the flange."""
+
 
 class Arm(NamedTuple):
     """A compiled description, shared: a copy of ``bare`` or ``loaded`` is simulated.
@@ -93,7 +96,7 @@ def _compiled(
     spec = read(path, where)
     chosen, limits = _reduce(spec, joints, where, prefix)
     spec.compiler.fusestatic = False
-    body = _add_tool(spec, chosen, flange, prefix)
+    _add_tool(spec, chosen, flange, prefix)
     try:
         with warnings.catch_warnings():  # of what is outdated in somebody's file
             warnings.simplefilter("ignore")
@@ -107,7 +110,7 @@ def _compiled(
     bare.opt.disableflags |= int(flags.mjDSBL_CONTACT) | int(flags.mjDSBL_AUTORESET)
     bare.opt.integrator = int(mujoco.mjtIntegrator.mjINT_IMPLICITFAST)
     loaded = copy(bare)
-    at = mujoco.mj_name2id(bare, int(mujoco.mjtObj.mjOBJ_BODY), body)
+    at = mujoco.mj_name2id(bare, int(mujoco.mjtObj.mjOBJ_BODY), TOOL)
     loaded.body_mass[at] = tool[0]
     loaded.body_ipos[at] = tool[1:4]
     loaded.body_inertia[at] = tool[4] if tool[0] else 0.0
@@ -188,9 +191,8 @@ def _limit_of(joint: Any, spec: Any) -> float:
     return math.inf
 
 
-def _add_tool(spec: Any, moved: list[Any], flange: str, prefix: str) -> str:
-    """A body without mass where the tool will be; its name."""
-    name = "fpt_ros tool"
+def _add_tool(spec: Any, moved: list[Any], flange: str, prefix: str) -> None:
+    """A body without mass where the tool will be."""
     site = spec.site(flange or "flange") or (None if flange else spec.site("attachment_site"))
     if site is not None:
         body, position, turn = site.parent, site.pos, site.quat
@@ -200,6 +202,5 @@ def _add_tool(spec: Any, moved: list[Any], flange: str, prefix: str) -> str:
     if body is None:
         known = ", ".join(each.name for each in [*spec.sites, *spec.bodies] if each.name)
         raise BadInput(f"{prefix}.flange: no site or body '{flange}', the file has {known}")
-    tool = body.add_body(name=name, pos=position, quat=turn)
+    tool = body.add_body(name=TOOL, pos=position, quat=turn)
     tool.mass, tool.inertia, tool.explicitinertial = 0.0, [0.0, 0.0, 0.0], True
-    return name

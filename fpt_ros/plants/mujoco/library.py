@@ -25,6 +25,7 @@ class Functions(NamedTuple):
     centres: float
     velocities: float
     inverse: float
+    jacobian: float
     copy: float
 
 
@@ -67,6 +68,7 @@ def functions() -> Functions:
         "centres": "mj_comPos",
         "velocities": "mj_comVel",
         "inverse": "mj_rne",
+        "jacobian": "mj_jacBody",
     }
     try:
         found_at = {ours: address_of(getattr(library, name)) for ours, name in names.items()}
