@@ -197,7 +197,9 @@ class TrajectoryGenerator(Stage):
         self.entrances = {STATE_ESTIMATE.name: self._entrance}
         self._names: Names = ()
         late = self._delay()
-        self.constants = TrajectoryConstants(list(self._motion), decay, (), slots, self.relaxation.order, late)
+        self.constants = TrajectoryConstants(
+            list(self._motion), decay, (), slots, self.relaxation.order, late
+        )
         self._turns = [(name,) for name in self.controlled]
         layout = Layout(
             TrajectoryMemory, integral=c, error=c, turn=1, nominal=len(self.trajectory.state)

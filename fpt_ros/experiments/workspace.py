@@ -6,6 +6,9 @@ from fpt_ros.experiments.nominal import sample
 
 SAMPLES = 400
 
+COARSE = 0.05
+"""Steps [s] at most in which an integrated motion is looked at, as far as the samples go."""
+
 
 def check_workspace(loop: Loop) -> None:
     """Raise BadInput where a nominal position leaves the plant's workspace during the run."""
@@ -13,9 +16,13 @@ def check_workspace(loop: Loop) -> None:
     if plant.workspace is None:
         return
     limits = plant.workspace(loop.plant.coefficients)
-    stride = max(1, loop.plant.cycles // SAMPLES)
-    cycles = list(range(0, loop.plant.cycles, stride))
-    motions = sample(loop.trajectory, [cycle * loop.plant.dt for cycle in cycles])
+    dt, count, step = loop.plant.dt, loop.plant.cycles, 0.0
+    stride = max(1, count // SAMPLES)
+    if loop.trajectory.trajectory.coarse:
+        stride = min(stride, max(1, int(COARSE / dt)))
+        count, step = min(count, stride * SAMPLES), stride * dt
+    cycles = list(range(0, count, stride))
+    motions = sample(loop.trajectory, [cycle * dt for cycle in cycles], step)
     for cycle, (positions, _, _) in zip(cycles, motions, strict=True):
         for name, position in zip(loop.trajectory.controlled, positions, strict=True):
             at = plant.coordinates.index(name)

@@ -34,12 +34,14 @@ class Trajectory:
             nominal response.
         parameters: its own, beside amplitude and frequency.
         state: initial state, of a motion that is integrated.
+        coarse: whether steps of 50 ms show where an integrated motion goes, too.
     """
 
     prepare: Callable[[Values, int], tuple[float, ...]]
     nominal: Nominal
     parameters: tuple[Parameter, ...] = ()
     state: tuple[float, ...] = ()
+    coarse: bool = False
 
 
 TRAJECTORIES: Kind[Trajectory] = Kind(Trajectory, "trajectories")

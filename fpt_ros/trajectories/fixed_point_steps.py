@@ -25,6 +25,15 @@ PARAMETERS = (
     Parameter("inner_steps", "its steps in a cycle", 20, minimum=1, maximum=1000),
 )
 
+MEMORY = Parameter(
+    "inner_memory",
+    "part of the last cycle's dq that it starts from",
+    1.0,
+    minimum=0.0,
+    maximum=1.0,
+)
+"""Of dq, what J does not see stays: with all of it an arm with joints to spare drifts off."""
+
 MOST, ROWS = 8, 3
 """Joints at most, and coordinates of the tip."""
 
@@ -40,9 +49,9 @@ TINY = 1e-15
 
 
 def prepare(values: Values) -> tuple[float, ...]:
-    """Constants A, x*, D, steps."""
+    """Constants A, x*, D, steps, memory."""
     D, steps = number(values, "inner_D"), float(integer(values, "inner_steps"))
-    return number(values, "inner_A"), fixed_point(D), D, steps
+    return number(values, "inner_A"), fixed_point(D), D, steps, number(values, MEMORY.name)
 
 
 @helper
@@ -115,6 +124,8 @@ def move(
     """
     c = len(out_q)
     size = frobenius(state, m, c)
+    for i in range(c):
+        state[STEP + i] *= constants[at + 4]
     for _ in range(int(constants[at + 3])):
         improve(constants, at, state, m, size, out_a)
     for i in range(c):

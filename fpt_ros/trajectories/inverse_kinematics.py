@@ -16,7 +16,7 @@ from fpt_ros.errors import BadInput
 from fpt_ros.laws import MutableVector, Vector, helper
 from fpt_ros.parameters import Parameter, Values, number, numbers
 from fpt_ros.trajectories import Trajectory, fixed_point_steps, per_coordinate, scales
-from fpt_ros.trajectories.fixed_point_steps import BEGUN, LACK, MOST, Q, STATE
+from fpt_ros.trajectories.fixed_point_steps import BEGUN, LACK, MOST, STATE, Q
 
 PARAMETERS = (
     Parameter("links", "lengths of the links; empty: ones", [], unit="m", above=0.0),
@@ -24,6 +24,7 @@ PARAMETERS = (
     Parameter("direction", "of the path, from the vertical that hangs down", 1.0, unit="rad"),
     Parameter("across", "how far the path goes to the side", 0.0, unit="m"),
     *fixed_point_steps.PARAMETERS,
+    fixed_point_steps.MEMORY,
 )
 
 

@@ -22,7 +22,7 @@ REFERENCE = json.loads(Path(__file__).with_name("reference.json").read_text())
 ELSEWHERE = {
     "duffing", "vdp_second_order", "lorenz", "synchronised_duffing", "synchronised_lorenz",
     "synchronised_neurons", "freeway", "hypnosis", "receding_horizon",
-    "panda", "ur5e", "iiwa", "acrobot", "pendubot", "double_pendulum",
+    "panda", "ur5e", "iiwa", "iiwa_tip", "acrobot", "pendubot", "double_pendulum",
 }  # fmt: skip
 """Not of the thesis: their figures stand in tests of their own."""
 

@@ -23,19 +23,26 @@ PLAN = {
 """Of the motion that is optimised."""
 
 
+SLIDE = """<mujoco><worldbody><body><joint name="x" type="slide" axis="0 0 1"/>
+<geom size="0.1"/></body></worldbody></mujoco>"""
+
+
 @pytest.fixture(scope="module")
 def table(tmp_path_factory):
     """A motion in a file, for those that read one."""
     path = tmp_path_factory.mktemp("motion") / "motion.csv"
     t = np.arange(0.0, 3.0, 0.1)
     np.savetxt(path, np.c_[t, np.sin(t) ** 3], delimiter=",", header="t [s],x", comments="")
+    path.with_name("slide.xml").write_text(SLIDE)
     return str(path)
 
 
 def generator(trajectory, relaxation, table):
+    of_an_arm = trajectory == "cartesian_path"
     return TrajectoryGenerator(
         {
             **({"file": table} if trajectory == "recorded" else {}),
+            **({"arm.file": table.replace("motion.csv", "slide.xml")} if of_an_arm else {}),
             **({"to_and_fro": False} if trajectory == "minimum_jerk" else {}),
             **(PLAN if trajectory == "receding_horizon" else {}),
             "trajectory": trajectory,
@@ -64,6 +71,8 @@ def motion(trajectory, relaxation, cycles, table):
 @pytest.mark.parametrize("trajectory", TRAJECTORIES.names())
 @pytest.mark.parametrize(("relaxation", "order"), [("value", 0), ("pi", 1), ("pd", 2), ("pid", 2)])
 def test_every_motion_for_every_order(trajectory, relaxation, order, table):
+    if trajectory == "cartesian_path":
+        pytest.importorskip("mujoco")
     q, v, response = motion(trajectory, relaxation, 1500, table)
     expected = (q, np.gradient(q, 1e-3), np.gradient(np.gradient(q, 1e-3), 1e-3))[order]
     inner = slice(2, -2)

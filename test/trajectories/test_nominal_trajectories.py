@@ -28,7 +28,8 @@ def test_all_registered_trajectories_are_tested_here():
     here = {"constant", "cosines", "sine", "spline"}
     integrated = {"fitzhugh_nagumo", "duffing", "lorenz", "stimulated_neuron"}
     of_use = {"chirp", "minimum_jerk", "recorded", "step", "waypoints"}
-    files_of_their_own = {"blended_sines", "inverse_kinematics", "live", "receding_horizon"}
+    of_tips = {"cartesian_path", "inverse_kinematics"}
+    files_of_their_own = {"blended_sines", "live", "receding_horizon"} | of_tips
     elsewhere = integrated | of_use | files_of_their_own
     assert set(TRAJECTORIES.names()) == here | elsewhere
 
