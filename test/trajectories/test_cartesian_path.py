@@ -101,6 +101,17 @@ def test_a_point_beside_the_flange_is_led_as_well():
     assert np.linalg.norm(found - wanted[::20], axis=1).max() < 1e-5
 
 
+def test_a_body_in_the_middle_is_led_and_the_joints_behind_it_rest():
+    direction, peer = [0.0, 1.0, 0.0], Peer("iiwa")
+    values = {"direction": direction, "amplitude": [0.05] * 7, "arm.flange": "link6"}
+    q, _, _ = motion("iiwa", HOME["iiwa"], 600, **values)
+    peer.tip(HOME["iiwa"])
+    wanted = path(peer.data.body("link6").xpos.copy(), 600, direction, amplitude=0.05)
+    peer.tip(q[-1])
+    assert peer.data.body("link6").xpos == pytest.approx(wanted[-1], abs=1e-5)
+    assert (q[:, 5:] == HOME["iiwa"][5:]).all()
+
+
 def test_three_joints_are_where_scipy_finds_them():
     """Random postures of the first three joints of the UR5e, the others at zero."""
     rng, peer, tried = np.random.default_rng(49), Peer("ur5e"), 0
