@@ -169,7 +169,7 @@ class Recorder(LoopNode):
         done = self._recorded.done
         if self._started and done > self._acknowledged:
             self._acknowledged = self.cycles_done = done
-            self._until.publish(encode_time(self._recorded.stamps[done - 1]))
+            self._until.publish(encode_time(self._recorded.until))
 
     def _record_side_topic(self, name: str, kind: str) -> None:
         resolved = self.resolve_topic_name(name)
@@ -178,8 +178,7 @@ class Recorder(LoopNode):
         def record(data: bytes) -> None:
             if name == ROSOUT and _stamp_of(data) <= self._said_before:
                 return
-            stamps = self._recorded.stamps
-            self._write(resolved, kind, stamps[-1] if stamps else 0, data)
+            self._write(resolved, kind, self._recorded.newest, data)
 
         # what was said before we came is recorded too
         qos = loop_qos(SIDE_DEPTH) if name in (ROSOUT, CHANGES) else SIDE_DEPTH
@@ -257,7 +256,7 @@ class Recorder(LoopNode):
         reason = reason_to_end() or str(sys.exc_info()[1] or "")
         if self._lost is not None:
             raise self._lost
-        done = len(self._recorded.stamps)
+        done = self._recorded.cycles
         if not reason and done < self._cycles:
             reason = f"the recorder was stopped after {done} of {self._cycles} cycles"
         if not reason and self._recorded.is_within_a_cycle:
