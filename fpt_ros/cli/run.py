@@ -154,7 +154,7 @@ def run_recorded(
     from fpt_ros.nodes.restarts import Restarts
 
     counted = Restarts(restarts)
-    pace: list[tuple[float, int]] = []
+    pace: list[tuple[float, int]] = []  # at the first report and at the newest
     failure: FptError | None = None
     total = experiment.loop().plant.cycles
     started = perf_counter()
@@ -162,7 +162,7 @@ def run_recorded(
 
         def progress(done: int) -> None:
             if done:
-                pace.append((perf_counter(), done))
+                pace[1:] = [(perf_counter(), done)]
             show(done)
 
         try:
