@@ -3,7 +3,9 @@
 UDP on the loopback device, and no shared memory: that has ports in ``/dev/shm``, of all domains of
 a machine together, and a process that is killed may leave one broken: once in 270 such deaths the
 graph stood still for good, over UDP not once in 450. Who has shared memory as well (``ros2 topic``,
-other people's nodes) hears the graph over UDP.
+other people's nodes) hears the graph over UDP. Sockets ask for 4 MB, of which the system gives what
+``net.core.rmem_max`` allows: with its default of 0.2 MB some of what a newcomer is told of all
+nodes at once did not fit, and was told again seconds later.
 
 By default a reliable writer asks for a confirmation with every message, and restarts a timer of no
 duration for every reader. Each wakes a thread of one process or another: half of all context
