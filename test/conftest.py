@@ -44,7 +44,7 @@ def ros_domain(monkeypatch):
                 continue
             monkeypatch.setenv("ROS_DOMAIN_ID", str(domain))
             monkeypatch.setenv("ROS_AUTOMATIC_DISCOVERY_RANGE", "LOCALHOST")
-            for chosen in (middleware.VARIABLE, middleware.TRANSPORTS):
+            for chosen in (middleware.PROFILES, middleware.TRANSPORTS):
                 monkeypatch.setenv(chosen, "")  # undone at the end, whoever sets it
                 monkeypatch.delenv(chosen)
             yield domain

@@ -21,17 +21,18 @@ import os
 from collections.abc import MutableMapping
 from pathlib import Path
 
-VARIABLE = "FASTRTPS_DEFAULT_PROFILES_FILE"
+PROFILES = "FASTRTPS_DEFAULT_PROFILES_FILE"
 """Where Fast DDS 2 looks for profiles; another version or middleware does not look there."""
 
 RANGE = "ROS_AUTOMATIC_DISCOVERY_RANGE"
 
 TRANSPORTS = "FASTDDS_BUILTIN_TRANSPORTS"
 
-PROFILE = Path(__file__).with_name("fast_dds.xml")
+NETWORK = Path(__file__).with_name("fast_dds.xml")
+"""Nodes are looked for as far as ROS is told."""
 
 LOCALHOST = Path(__file__).with_name("fast_dds_localhost.xml")
-"""The same, and nodes of this machine alone are looked for."""
+"""Nodes of this machine alone are looked for; all else is the same."""
 
 
 def configure(environment: MutableMapping[str, str] = os.environ) -> None:
@@ -40,11 +41,11 @@ def configure(environment: MutableMapping[str, str] = os.environ) -> None:
     ROS makes transports of its own for the range LOCALHOST, with shared memory. So the profile says
     what that range is, and ROS that it is as the profile says. Static peers are known to ROS alone.
     """
-    if VARIABLE in environment or TRANSPORTS in environment:
-        environment.setdefault(VARIABLE, str(PROFILE))
+    if PROFILES in environment or TRANSPORTS in environment:
+        environment.setdefault(PROFILES, str(NETWORK))
     elif environment.get(RANGE) == "LOCALHOST" and not environment.get("ROS_STATIC_PEERS"):
-        environment[VARIABLE] = str(LOCALHOST)
+        environment[PROFILES] = str(LOCALHOST)
         environment[RANGE] = "SYSTEM_DEFAULT"
     else:
-        environment[VARIABLE] = str(PROFILE)
+        environment[PROFILES] = str(NETWORK)
         environment[TRANSPORTS] = "UDPv4"

@@ -97,7 +97,7 @@ class Recorder(LoopNode):
         run_folder.introduce(until, gid_of(self._until))
         tuned = values.get("await_tuning") is True
         topics = [topic for topic in LOOP_TOPICS if tuned or topic != TUNING]
-        before = [self._writer.stamps.get(self.resolve_topic_name(t.name), []) for t in topics]
+        before = [self._writer.stamps.pop(self.resolve_topic_name(t.name), []) for t in topics]
         self._recorded = RecordedCycles(self._lockstep, before)
         self._turns = Turns[Message](len(topics), sum(self._recorded.counts))
         for index, topic in enumerate(topics):

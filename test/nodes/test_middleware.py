@@ -56,19 +56,19 @@ def test_static_peers_are_left_to_ros():
     chosen = {middleware.RANGE: "LOCALHOST", "ROS_STATIC_PEERS": "127.0.0.1"}
     middleware.configure(chosen)
     assert chosen[middleware.RANGE] == "LOCALHOST"
-    assert chosen[middleware.VARIABLE] == str(middleware.PROFILE)
+    assert chosen[middleware.PROFILES] == str(middleware.NETWORK)
 
 
 def test_it_would_be_seen_if_it_did_not_and_the_users_own_counts(tmp_path):
     wrong = tmp_path / "wrong.xml"
-    wrong.write_text(middleware.PROFILE.read_text().replace("heartbeatPeriod", "heartbeat"))
-    output = output_of_a_participant(**{middleware.VARIABLE: str(wrong)})
+    wrong.write_text(middleware.NETWORK.read_text().replace("heartbeatPeriod", "heartbeat"))
+    output = output_of_a_participant(**{middleware.PROFILES: str(wrong)})
     assert "XMLPARSER" in output
     assert str(wrong) in output
 
 
 def test_both_profiles_say_the_same_of_writers_and_announcements():
-    both = [ElementTree.parse(path) for path in (middleware.PROFILE, middleware.LOCALHOST)]
+    both = [ElementTree.parse(path) for path in (middleware.NETWORK, middleware.LOCALHOST)]
     for name in ("data_writer", "discovery_config"):
         one, other = (tree.find(f".//{{*}}{name}") for tree in both)
         assert ElementTree.canonicalize(ElementTree.tostring(one), strip_text=True) == (

@@ -135,7 +135,7 @@ class Watcher:
 def watcher():
     context = Context()
     with pytest.MonkeyPatch.context() as found_quickly:  # others may take 3 s to be found
-        found_quickly.setenv(middleware.VARIABLE, str(middleware.PROFILE))  # read once a process
+        found_quickly.setenv(middleware.PROFILES, str(middleware.NETWORK))  # read once a process
         rclpy.init(context=context)
         watching = Watcher(context)
     try:
