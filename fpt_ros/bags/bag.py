@@ -23,6 +23,9 @@ INFO = "fpt_ros"
 END = "fpt_ros.end"
 """Metadata record behind the messages of our own recordings: how the run ended."""
 
+NEXT = "next"
+"""Key of :data:`END`: the file in which the recording goes on."""
+
 COUNT = "messages "
 """Begins the keys of :data:`END` that count the messages of a topic in the file."""
 
@@ -103,15 +106,25 @@ class Bag:
                 self.kinds = {**aside.kinds, **self.kinds}  # known before their messages are
                 yield _without(block, aside, scan.sequences)
             self.kinds = {**aside.kinds, **self.kinds}
+        end = scan.metadata.get(END, {})
+        self._goes_on(path, end.get(NEXT, ""))
         own: Counter[str] = Counter()
         for channel, count in scan.counts.items():
             if channel in scan.sources:
                 own[scan.sources[channel].topic] += count
-        for key, text in scan.metadata.get(END, {}).items():
+        for key, text in end.items():
             if key.startswith(COUNT) and text.isdigit():
                 topic = key.removeprefix(COUNT)
                 own[topic] = max(int(text), own[topic])
         self._expected.update(own)
+
+    def _goes_on(self, path: Path, following: str) -> None:
+        """Its writer may have been killed, or the file lost, between one file and the next."""
+        there = any(each.name.startswith(following) for each in self.files)  # .mcap.zstd too
+        whole_folder = self.path not in self.files
+        if following and whole_folder and not there and not self._about:
+            self.missing.append(f"{following}, in which {path.name} goes on, is not there")
+            self._cut = True
 
     def _through(self, scan: Scan | SqliteScan) -> Iterator[Block]:
         for block in scan.blocks():

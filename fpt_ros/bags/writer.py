@@ -9,7 +9,7 @@ from typing import NamedTuple, Self
 
 from fpt_ros import __version__
 from fpt_ros.bags import parameter_text
-from fpt_ros.bags.bag import COUNT, END, INFO
+from fpt_ros.bags.bag import COUNT, END, INFO, NEXT
 from fpt_ros.bags.files import METADATA
 from fpt_ros.bags.left import Left
 from fpt_ros.bags.left_parts import part, parts_left
@@ -244,8 +244,9 @@ class BagWriter:
 
     def _go_on(self) -> None:
         """In another file, which can be read without this one."""
-        following = self.directory / f"{self.directory.name}_{len(self._parts) + 1}.mcap"
-        self._end_part({"complete": "false", "reason": f"it goes on in {following.name}"})
+        following = f"{self.directory.name}_{len(self._parts) + 1}.mcap"
+        goes_on = {"complete": "false", "reason": f"it goes on in {following}", NEXT: following}
+        self._end_part(goes_on)
         self._file = self._opened()
         self._begin()
         for topic in self._topics:

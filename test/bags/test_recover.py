@@ -116,6 +116,21 @@ def test_what_was_acknowledged_survives_a_kill(tmp_path: Path, after: int) -> No
     assert by_others(done.directory) == [found, found]
 
 
+def test_of_a_writer_killed_between_two_files(tmp_path: Path) -> None:
+    path = recording(tmp_path / "bag", split=Split(size=65536), cycles=1200)
+    later = sorted((tmp_path / "bag").glob("*.mcap"))[1:]
+    for each in [*later, tmp_path / "bag" / "metadata.yaml"]:
+        each.unlink()
+    found, bag = positions(tmp_path / "bag")
+    assert bag.missing == ["bag_1.mcap, in which bag_0.mcap goes on, is not there"]
+    about = reader.info(tmp_path / "bag")
+    assert (about["complete"], about["reason"]) == (False, "the recording was cut")
+    done = recover(tmp_path / "bag", tmp_path / "out")
+    assert done.missing == tuple(bag.missing)
+    assert by_others(done.directory) == [found, found]
+    assert reader.info(path)["reason"] == "it goes on in bag_1.mcap"
+
+
 def test_a_directory_that_was_removed(tmp_path: Path) -> None:
     from damaged import INFO, PARAMETERS, fill
 
