@@ -30,6 +30,7 @@ from fpt_ros.messages.frames import SECOND
 from fpt_ros.messages.topics import DEPTH, JOINT_STATES, LOOP_TOPICS, TUNING, Topic
 from fpt_ros.nodes import run_folder
 from fpt_ros.nodes.loop_node import LoopNode, message_class
+from fpt_ros.nodes.moderation import Moderation
 from fpt_ros.nodes.qos import HEARD, loop_qos, sensor_qos
 from fpt_ros.nodes.recorded_cycles import RecordedCycles
 from fpt_ros.nodes.recorded_run import last_change, reason_to_end, recorded_run
@@ -41,9 +42,6 @@ from fpt_ros.nodes.snapshot import Snapshot
 from fpt_ros.nodes.stage_node import CHANGES
 from fpt_ros.nodes.take import gid_of
 from fpt_ros.parameters import integer, word
-
-NAP = 0.002
-"""Seconds between two looks at what has come: each message by itself would cost a wake-up."""
 
 ACKNOWLEDGE = 8
 """Cycles between two messages to the plant."""
@@ -67,7 +65,6 @@ class Recorder(LoopNode):
         values = declare(self, description.parameters)
         end_with_plant(self, values)
         self._lockstep = values.get("realtime") is not True
-        self.nap = NAP
         self._robot = values.get("robot") is True
         self._cycles = integer(values, "cycles")
         run = recorded_run(values)
@@ -102,6 +99,8 @@ class Recorder(LoopNode):
         self._turns = Turns[Message](len(topics), sum(self._recorded.counts))
         for index, topic in enumerate(topics):
             self._record_loop_topic(index, topic)
+        self._moderation = Moderation(self.loop_subscriptions[topics.index(JOINT_STATES)])
+        self.nap = self._moderation.nap
         for name, kind in SIDE_TOPICS.items():
             self._record_side_topic(name, kind)
         if run_folder.is_marked(STARTED):
@@ -250,6 +249,7 @@ class Recorder(LoopNode):
         Raises:
             RunFailed: the recording could not be written to the end.
         """
+        self._moderation.close()
         self._take_what_has_come()
         for message in self._turns.rest():
             self._write(*message)

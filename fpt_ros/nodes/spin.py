@@ -8,7 +8,7 @@ internals have changed, the executor serves the loop too: the same callbacks, sl
 
 from collections.abc import Callable, Sequence
 from itertools import cycle
-from time import monotonic, sleep
+from time import monotonic
 
 from rclpy.context import Context
 from rclpy.executors import SingleThreadedExecutor, TimeoutException
@@ -129,7 +129,7 @@ def spin(nodes: Sequence[LoopNode], stopped: Callable[[], bool], context: Contex
         executor.add_node(node)
     hot = wait_set or _PlainExecutor(executors[0], nodes)
     services = _Services(served)
-    nap = min(node.nap for node in nodes)
+    naps = [node.nap for node in nodes if node.nap is not None]
     for node in nodes:
         node.begin()
     quiet = True
@@ -146,8 +146,9 @@ def spin(nodes: Sequence[LoopNode], stopped: Callable[[], bool], context: Contex
                 if node.deadline is not None:
                     timeout = min(timeout, max(0.0, node.deadline - now))
             quiet = hot.wait_and_dispatch(timeout)
-            if nap and quiet:
-                sleep(nap)
+            if quiet:
+                for nap in naps:
+                    nap()
             for node in nodes:
                 if node.newest_counts:
                     node.act()
