@@ -25,9 +25,8 @@ from fpt_ros.cycle.run import Run
 from fpt_ros.experiments.experiment import load
 from fpt_ros.messages.cdr import Codec
 from fpt_ros.nodes.loop_node import LoopNode, message_class
-from fpt_ros.nodes.plant_node import WINDOW
 from fpt_ros.nodes.qos import loop_qos
-from fpt_ros.nodes.recorded_until import BEGUN, RECORDED_UNTIL, TIME, decode_time
+from fpt_ros.nodes.recorded_until import BEGUN, RECORDED_UNTIL, TIME, WINDOW, decode_time
 from fpt_ros.nodes.stage_node import CHANGES
 
 RECORDER = str(Path(sys.executable).with_name("recorder"))

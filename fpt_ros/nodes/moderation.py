@@ -4,12 +4,13 @@ Fast DDS wakes a thread of the reader for every message. Who sends it pays: 35 u
 of a virtual machine has to be woken, three times what the message itself costs. A reader that
 looks every few milliseconds needs no more than one wake-up for all that has come since.
 
-So the thread that receives is given a function to call for the messages of one subscription, the
-C library's ``nanosleep``, and we say whether it sleeps: the time is in our memory. It needs nothing
+So the thread that receives is given a function to call for every message, the C library's
+``nanosleep``, and we say whether it sleeps: the time is in our memory. It needs nothing
 of Python. A message waits in the socket meanwhile, which has room for hundreds.
 """
 
 import ctypes
+from collections.abc import Sequence
 from contextlib import suppress
 from time import sleep
 
@@ -17,9 +18,8 @@ from rclpy.subscription import Subscription
 
 from fpt_ros.messages.frames import SECOND
 
-FALLING_ASLEEP, ASLEEP, NAP = 0.001, 0.003, 0.004
+FALLING_ASLEEP, ASLEEP, NAP = 0.0005, 0.0035, 0.004
 """Seconds in which the receiving thread may fall asleep, for which it sleeps (below 1), of both."""
-
 
 _AT_ONCE = -1
 """No time at all, so that ``nanosleep`` returns; of 0 it makes some 50 us."""
@@ -34,9 +34,9 @@ class _Time(ctypes.Structure):
 class Moderation:
     """Of a node that has a process of its own, while it is open."""
 
-    def __init__(self, subscription: Subscription) -> None:
-        """``subscription``: of a topic with a message every cycle."""
-        self._handle = subscription.handle
+    def __init__(self, subscriptions: Sequence[Subscription]) -> None:
+        """``subscriptions``: all that have messages every cycle."""
+        self._handles = [each.handle for each in subscriptions]
         self._time = _Time(0, _AT_ONCE)
         self._set(True)
 
@@ -48,7 +48,7 @@ class Moderation:
         sleep(NAP - FALLING_ASLEEP)
 
     def close(self) -> None:
-        """Each message wakes the thread again; before the subscription goes."""
+        """Each message wakes the thread again; before the subscriptions go."""
         self._set(False)
 
     def _set(self, on: bool) -> None:
@@ -56,11 +56,9 @@ class Moderation:
             function = ctypes.CDLL("librcl.so").rcl_subscription_set_on_new_message_callback
             function.argtypes = (ctypes.c_void_p,) * 3
             asleep = ctypes.cast(ctypes.CDLL(None).nanosleep, ctypes.c_void_p)
-            with self._handle:
-                # its second argument, how many messages, is where nanosleep would tell what is
-                # left of an interrupted sleep: no address that can be written, so it tells nothing
-                function(
-                    self._handle.pointer,
-                    asleep if on else None,
-                    ctypes.addressof(self._time) if on else None,
-                )
+            given = (asleep, ctypes.addressof(self._time)) if on else (None, None)
+            for handle in self._handles:
+                with handle:
+                    # its second argument, how many messages, is where nanosleep would tell what is
+                    # left of an interrupted sleep: no address that can be written: it tells nothing
+                    function(handle.pointer, *given)

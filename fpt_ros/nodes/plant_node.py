@@ -15,18 +15,15 @@ from fpt_ros.cycle.plant_simulator import PlantSimulator
 from fpt_ros.errors import BadInput, RunFailed
 from fpt_ros.messages.cdr import Codec, MalformedMessage
 from fpt_ros.messages.frames import SECOND, Command
-from fpt_ros.messages.topics import COMMAND, DEPTH, JOINT_STATES
+from fpt_ros.messages.topics import COMMAND, JOINT_STATES
 from fpt_ros.nodes.process import report_progress
 from fpt_ros.nodes.qos import heard_qos
-from fpt_ros.nodes.recorded_until import RECORDED_UNTIL, TIME, decode_time
+from fpt_ros.nodes.recorded_until import RECORDED_UNTIL, TIME, WINDOW, decode_time
 from fpt_ros.nodes.reset import Reset
 from fpt_ros.nodes.run_control import RunControl
 from fpt_ros.nodes.run_over import announce, announcer
 from fpt_ros.nodes.stage_node import ParameterisedNode
 from fpt_ros.nodes.timing import Timing
-
-WINDOW = DEPTH * 3 // 4
-"""Cycles that the loop may be ahead of the recorder: less than the history that publishers keep."""
 
 AGAIN = 0.5
 """Seconds without a command after which the measurement is published once more, in lockstep."""

@@ -9,12 +9,16 @@ import struct
 
 from fpt_ros.messages.cdr import MalformedMessage
 from fpt_ros.messages.frames import SECOND
+from fpt_ros.messages.topics import DEPTH
 
 RECORDED_UNTIL = "recorded_until"
 TIME = "builtin_interfaces/msg/Time"
 
 BEGUN = -1
 """In the place of a stamp: the recorder hears the whole loop, nothing is recorded yet [ns]."""
+
+WINDOW = DEPTH * 3 // 4
+"""Cycles that the loop may be ahead of the recorder: less than the history that publishers keep."""
 
 _LAYOUT = struct.Struct("<4xiI")
 

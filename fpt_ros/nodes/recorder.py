@@ -34,7 +34,7 @@ from fpt_ros.nodes.moderation import Moderation
 from fpt_ros.nodes.qos import HEARD, loop_qos, sensor_qos
 from fpt_ros.nodes.recorded_cycles import RecordedCycles
 from fpt_ros.nodes.recorded_run import last_change, reason_to_end, recorded_run
-from fpt_ros.nodes.recorded_until import BEGUN, RECORDED_UNTIL, TIME, encode_time
+from fpt_ros.nodes.recorded_until import BEGUN, RECORDED_UNTIL, TIME, WINDOW, encode_time
 from fpt_ros.nodes.ros_parameters import declare
 from fpt_ros.nodes.run_over import end_with_plant
 from fpt_ros.nodes.side_topics import ROSOUT, SIDE_DEPTH, SIDE_TOPICS
@@ -99,8 +99,8 @@ class Recorder(LoopNode):
         self._turns = Turns[Message](len(topics), sum(self._recorded.counts))
         for index, topic in enumerate(topics):
             self._record_loop_topic(index, topic)
-        self._moderation = Moderation(self.loop_subscriptions[topics.index(JOINT_STATES)])
-        self.nap = self._moderation.nap
+        self._moderation = Moderation(self.loop_subscriptions)
+        self.nap, self._slept = self._nap, 0
         for name, kind in SIDE_TOPICS.items():
             self._record_side_topic(name, kind)
         if run_folder.is_marked(STARTED):
@@ -169,6 +169,13 @@ class Recorder(LoopNode):
         if self._started and done > self._acknowledged:
             self._acknowledged = self.cycles_done = done
             self._until.publish(encode_time(self._recorded.until))
+
+    def _nap(self) -> None:
+        """Let messages gather, but where so many came that the plant may wait for us."""
+        done = self._recorded.done
+        if done - self._slept < WINDOW // 2:
+            self._moderation.nap()
+        self._slept = done
 
     def _record_side_topic(self, name: str, kind: str) -> None:
         resolved = self.resolve_topic_name(name)
