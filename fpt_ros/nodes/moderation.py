@@ -5,8 +5,8 @@ of a virtual machine has to be woken, three times what the message itself costs.
 looks every few milliseconds needs no more than one wake-up for all that has come since.
 
 So the thread that receives is given a function to call for every message, the C library's
-``nanosleep``, and we say whether it sleeps: the time is in our memory. It needs nothing
-of Python. A message waits in the socket meanwhile, which has room for hundreds.
+``nanosleep``, and we say whether it sleeps: the time is in our memory. It needs nothing of Python.
+What comes meanwhile waits in the socket, which has room for hundreds of messages.
 """
 
 import ctypes
@@ -60,5 +60,5 @@ class Moderation:
             for handle in self._handles:
                 with handle:
                     # its second argument, how many messages, is where nanosleep would tell what is
-                    # left of an interrupted sleep: no address that can be written: it tells nothing
+                    # left of an interrupted sleep; that is no address, and so it tells nothing
                     function(handle.pointer, *given)

@@ -99,8 +99,8 @@ class Recorder(LoopNode):
         self._turns = Turns[Message](len(topics), sum(self._recorded.counts))
         for index, topic in enumerate(topics):
             self._record_loop_topic(index, topic)
-        self._moderation = Moderation(self.loop_subscriptions)
         self.nap, self._slept = self._nap, 0
+        self._moderation: Moderation | None = None
         for name, kind in SIDE_TOPICS.items():
             self._record_side_topic(name, kind)
         if run_folder.is_marked(STARTED):
@@ -173,7 +173,7 @@ class Recorder(LoopNode):
     def _nap(self) -> None:
         """Let messages gather, but where so many came that the plant may wait for us."""
         done = self._recorded.done
-        if done - self._slept < WINDOW // 2:
+        if self._moderation is not None and done - self._slept < WINDOW // 2:
             self._moderation.nap()
         self._slept = done
 
@@ -194,7 +194,8 @@ class Recorder(LoopNode):
             self._changes = subscription
 
     def begin(self) -> None:
-        """In real time the loop comes first."""
+        """The loop comes first."""
+        self._moderation = Moderation(self.loop_subscriptions)
         if not self._lockstep:
             os.nice(NICE)
 
@@ -256,7 +257,8 @@ class Recorder(LoopNode):
         Raises:
             RunFailed: the recording could not be written to the end.
         """
-        self._moderation.close()
+        if self._moderation is not None:
+            self._moderation.close()
         self._take_what_has_come()
         for message in self._turns.rest():
             self._write(*message)
