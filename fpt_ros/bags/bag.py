@@ -120,9 +120,10 @@ class Bag:
 
     def _goes_on(self, path: Path, following: str) -> None:
         """Its writer may have been killed, or the file lost, between one file and the next."""
-        there = any(each.name.startswith(following) for each in self.files)  # .mcap.zstd too
-        whole_folder = self.path not in self.files
-        if following and whole_folder and not there and not self._about:
+        if not following or self._about or self.path in self.files:
+            return  # its folder's metadata.yaml names all, and of a single file nobody asks
+        known = [*(each.name for each in self.files), *self.missing]  # a gap is told already
+        if not any(each.startswith(following) for each in known):  # .mcap.zstd too
             self.missing.append(f"{following}, in which {path.name} goes on, is not there")
             self._cut = True
 

@@ -17,7 +17,7 @@ SUFFIXES = (".mcap", ".db3", ".mcap.zstd", ".db3.zstd", ".mcap.zst", ".db3.zst")
 SIDE = ".open"
 """Ends the name of the side file that holds the messages of a file's open chunk."""
 
-_PART = re.compile(r"_\d+$")
+_PART = re.compile(r"_(\d+)$")
 _TAKES = "it has to be a recording's directory, or its .mcap or .db3 file"
 
 
@@ -91,6 +91,7 @@ def _of_folder(folder: Path) -> Files:
         ]
     elif files.paths:
         _check_one_recording(folder, files.paths)
+        files.missing += [f"{name} is not there" for name in _gaps(folder, files.paths)]
     if not files.paths:
         raise BadInput(f"{folder} holds no .mcap file: {_TAKES}")
     return files
@@ -122,3 +123,18 @@ def _check_one_recording(folder: Path, paths: list[Path]) -> None:
             f"{folder} holds several recordings ({names}) and no {METADATA} that says which: "
             "give one file"
         )
+
+
+def _gaps(folder: Path, paths: list[Path]) -> list[str]:
+    """Names of files that a split recording lacks: they are numbered from 0.
+
+    One file alone may be somebody's copy, but not under the folder's name.
+    """
+    parts = [path.name.partition(".") for path in paths]
+    numbers = [_PART.search(stem) for stem, _, _ in parts]
+    found = {int(each[1]) for each in numbers if each is not None}
+    stem = _PART.sub("", parts[0][0])
+    if None in numbers or (len(paths) == 1 and stem != folder.name):
+        return []
+    lost = sorted(set(range(max(found))) - found)
+    return [f"{stem}_{number}.{parts[0][2]}" for number in lost]

@@ -131,6 +131,26 @@ def test_of_a_writer_killed_between_two_files(tmp_path: Path) -> None:
     assert reader.info(path)["reason"] == "it goes on in bag_1.mcap"
 
 
+@pytest.mark.parametrize(
+    ("lost", "missing"),
+    [
+        ((0,), ["bag_0.mcap is not there"]),
+        ((1, 3), ["bag_1.mcap is not there", "bag_3.mcap is not there"]),
+        ((0, 1, 2, 3), [f"bag_{k}.mcap is not there" for k in range(4)]),
+        ((4,), ["bag_4.mcap, in which bag_3.mcap goes on, is not there"]),
+    ],
+)
+def test_of_a_split_recording_that_lacks_files(tmp_path, lost, missing):
+    path = recording(tmp_path / "bag", split=Split(size=65536), cycles=1200)
+    assert len(list(path.parent.glob("*.mcap"))) == 5
+    (path.parent / "metadata.yaml").unlink()
+    for number in lost:
+        (path.parent / f"bag_{number}.mcap").unlink()
+    _, bag = positions(path.parent)
+    assert bag.missing == missing
+    assert reader.info(path.parent)["complete"] is False
+
+
 def test_a_directory_that_was_removed(tmp_path: Path) -> None:
     from damaged import INFO, PARAMETERS, fill
 
