@@ -18,6 +18,9 @@ SIDE = ".open"
 """Ends the name of the side file that holds the messages of a file's open chunk."""
 
 _PART = re.compile(r"_(\d+)$")
+_SPLITS = 1000
+"""Files of a split recording have lesser numbers; others are dates."""
+
 _TAKES = "it has to be a recording's directory, or its .mcap or .db3 file"
 
 
@@ -134,7 +137,8 @@ def _gaps(folder: Path, paths: list[Path]) -> list[str]:
     numbers = [_PART.search(stem) for stem, _, _ in parts]
     found = {int(each[1]) for each in numbers if each is not None}
     stem = _PART.sub("", parts[0][0])
-    if None in numbers or (len(paths) == 1 and stem != folder.name):
+    alone = len(paths) == 1 and stem != folder.name
+    if alone or None in numbers or max(found) >= _SPLITS:
         return []
     lost = sorted(set(range(max(found))) - found)
     return [f"{stem}_{number}.{parts[0][2]}" for number in lost]

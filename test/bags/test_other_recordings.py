@@ -29,6 +29,17 @@ def test_split_recording_is_read_in_order(tmp_path: Path) -> None:
     assert run.info["complete"] == "true"
 
 
+@pytest.mark.parametrize("names", [["day_20261127", "day_20261128"], ["drive_7"], ["drive"]])
+def test_numbers_that_do_not_count_files(tmp_path: Path, names: list[str]) -> None:
+    for stamp, name in enumerate(names):
+        with BagWriter(tmp_path / "part", {"node": {"a": 1}}, {"experiment": "x"}) as bag:
+            bag.write("/joint_states", JOINT_STATE, stamp, message(stamp))
+        (tmp_path / "part" / "part_0.mcap").rename(tmp_path / f"{name}.mcap")
+        shutil.rmtree(tmp_path / "part")
+    run = reader.read_run(tmp_path)
+    assert (run.info["complete"], len(run.topics["joint_states"].stamps)) == ("true", len(names))
+
+
 def foreign(path: Path, topic: str = "/joint_states", parameters: bytes | None = None) -> None:
     """A file of another writer: mcap's own."""
     with path.open("wb") as stream:
