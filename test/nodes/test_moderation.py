@@ -31,7 +31,7 @@ node = rclpy.create_node("reader")
 subscription = node.create_subscription(Int32, "number", print, loop_qos({MESSAGES}))
 # longer than the writer takes on a busy machine
 moderation.FALLING_ASLEEP, moderation.ASLEEP, moderation.NAP = 0.5, 0.9, 1.5
-moderated = moderation.Moderation(subscription)
+moderated = moderation.Moderation([subscription])
 while node.count_publishers("number") == 0:
     sleep(0.01)
 print("there", flush=True)
@@ -83,9 +83,13 @@ def test_messages_and_wake_ups():
             [sys.executable, "-c", READER], stdout=subprocess.PIPE, text=True
         ) as reader,
     ):
-        assert reader.stdout is not None
-        assert reader.stdout.readline() == "there\n"
-        writer.communicate("go\n", timeout=60)
-        in_order, wake_ups = reader.communicate(timeout=60)[0].split()
+        try:
+            assert reader.stdout is not None
+            assert reader.stdout.readline() == "there\n"
+            writer.communicate("go\n", timeout=60)
+            in_order, wake_ups = reader.communicate(timeout=60)[0].split()
+        finally:
+            writer.kill()
+            reader.kill()
     assert (writer.returncode, reader.returncode, in_order) == (0, 0, "True")
     assert int(wake_ups) < MESSAGES / 4  # else one a message
