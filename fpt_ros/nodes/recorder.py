@@ -184,7 +184,8 @@ class Recorder(LoopNode):
         def record(data: bytes) -> None:
             if name == ROSOUT and _stamp_of(data) <= self._said_before:
                 return
-            self._write(resolved, kind, self._recorded.newest, data)
+            begun = self._lockstep or self._recorded.cycles > 0  # before, wall time has no stamp yet
+            self._write(resolved, kind, self._recorded.newest if begun else time_ns(), data)
 
         # what was said before we came is recorded too
         qos = loop_qos(SIDE_DEPTH) if name in (ROSOUT, CHANGES) else SIDE_DEPTH

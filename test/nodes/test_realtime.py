@@ -8,7 +8,7 @@ from mcap_ros2.reader import read_ros2_messages
 from sensor_msgs.msg import JointState
 from watcher import watcher
 
-from fpt_ros.bags.reader import read_run
+from fpt_ros.bags.reader import info, read_run
 from fpt_ros.cycle.stages import STAGES
 from fpt_ros.nodes.qos import loop_qos
 
@@ -32,6 +32,8 @@ def test_cycles_follow_the_wall_clock(tmp_path):
     assert len(stamps) == 600
     assert set(stamps[1:] - stamps[:-1]) == {5_000_000}
     assert stamps[0] > 1_700_000_000 * 10**9
+    # what the nodes said before the first cycle is of that time too, and not of 1970
+    assert 2.9 < float(str(info(bag)["duration"])) < 300.0
     reports = [
         {entry.key: entry.value for entry in message.ros_msg.status[0].values}
         for message in read_ros2_messages(bag / "bag_0.mcap", topics=["/diagnostics"])
