@@ -184,7 +184,7 @@ class Recorder(LoopNode):
         def record(data: bytes) -> None:
             if name == ROSOUT and _stamp_of(data) <= self._said_before:
                 return
-            begun = self._lockstep or self._recorded.cycles > 0  # before, wall time has no stamp yet
+            begun = self._lockstep or self._recorded.cycles > 0  # else no cycle tells the time yet
             self._write(resolved, kind, self._recorded.newest if begun else time_ns(), data)
 
         # what was said before we came is recorded too
