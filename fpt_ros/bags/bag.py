@@ -107,7 +107,7 @@ class Bag:
                 yield _without(block, aside, scan.sequences)
             self.kinds = {**aside.kinds, **self.kinds}
         end = scan.metadata.get(END, {})
-        self._goes_on(path, end.get(NEXT, ""))
+        self._check_following(path, end.get(NEXT, ""))
         own: Counter[str] = Counter()
         for channel, count in scan.counts.items():
             if channel in scan.sources:
@@ -118,8 +118,8 @@ class Bag:
                 own[topic] = max(int(text), own[topic])
         self._expected.update(own)
 
-    def _goes_on(self, path: Path, following: str) -> None:
-        """Its writer may have been killed, or the file lost, between one file and the next."""
+    def _check_following(self, path: Path, following: str) -> None:
+        """Whether the file in which this one goes on is there: it may be lost, or never begun."""
         if not following or self._about or self.path in self.files:
             return  # its folder's metadata.yaml names all, and of a single file nobody asks
         known = [*(each.name for each in self.files), *self.missing]  # a gap is told already

@@ -137,7 +137,7 @@ def _gaps(folder: Path, paths: list[Path]) -> list[str]:
     numbers = [_PART.search(stem) for stem, _, _ in parts]
     found = {int(each[1]) for each in numbers if each is not None}
     stem = _PART.sub("", parts[0][0])
-    alone = len(paths) == 1 and stem != folder.name
+    alone = len(paths) == 1 and stem != folder.absolute().name
     if alone or None in numbers or max(found) >= _SPLITS:
         return []
     lost = sorted(set(range(max(found))) - found)

@@ -60,7 +60,6 @@ class LoopNode(Node):
         loop_subscriptions: the ones that the spinner waits for and takes.
         finished: set when the node's work is done; the process then ends with status 0.
         deadline: monotonic time [s] at which :meth:`on_deadline` is due, or None.
-        nap: called when all that has come is taken: more may come before it is looked at.
         newest_counts: all messages that have come are taken, and then :meth:`act` is called.
         level: of what it tells on /diagnostics.
         warning: what is to be said of it on /diagnostics; empty: nothing.
@@ -74,7 +73,6 @@ class LoopNode(Node):
         self.loop_group = LoopGroup()
         self.finished = self.newest_counts = False
         self.deadline: float | None = None
-        self.nap: Callable[[], None] | None = None
         self.cycles_done = 0
         self.ignored = 0
         self.warning = ""
@@ -128,6 +126,9 @@ class LoopNode(Node):
 
     def begin(self) -> None:
         """Called once when everything is set up, before the first wait."""
+
+    def nap(self) -> None:
+        """Called when all that has come is taken: more may come before it is looked at."""
 
     def act(self) -> None:
         """Called in real time when all that has come is taken."""

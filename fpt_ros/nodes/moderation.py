@@ -1,7 +1,7 @@
 """Moderation of wake-ups, as network cards have it: a reader sleeps while messages gather.
 
 Fast DDS wakes a thread of the reader for every message. Who sends it pays: 35 us where another core
-of a virtual machine has to be woken, three times what the message itself costs. A reader that
+of a virtual machine has to be woken, four times what the message itself costs. A reader that
 looks every few milliseconds needs no more than one wake-up for all that has come since.
 
 So the thread that receives is given a function to call for every message, the C library's

@@ -99,8 +99,8 @@ class Recorder(LoopNode):
         self._turns = Turns[Message](len(topics), sum(self._recorded.counts))
         for index, topic in enumerate(topics):
             self._record_loop_topic(index, topic)
-        self.nap, self._slept = self._nap, 0
         self._moderation: Moderation | None = None
+        self._slept = 0
         for name, kind in SIDE_TOPICS.items():
             self._record_side_topic(name, kind)
         if run_folder.is_marked(STARTED):
@@ -170,7 +170,7 @@ class Recorder(LoopNode):
             self._acknowledged = self.cycles_done = done
             self._until.publish(encode_time(self._recorded.until))
 
-    def _nap(self) -> None:
+    def nap(self) -> None:
         """Let messages gather, but where so many came that the plant may wait for us."""
         done = self._recorded.done
         if self._moderation is not None and done - self._slept < WINDOW // 2:

@@ -129,7 +129,6 @@ def spin(nodes: Sequence[LoopNode], stopped: Callable[[], bool], context: Contex
         executor.add_node(node)
     hot = wait_set or _PlainExecutor(executors[0], nodes)
     services = _Services(served)
-    naps = [node.nap for node in nodes if node.nap is not None]
     for node in nodes:
         node.begin()
     quiet = True
@@ -146,10 +145,9 @@ def spin(nodes: Sequence[LoopNode], stopped: Callable[[], bool], context: Contex
                 if node.deadline is not None:
                     timeout = min(timeout, max(0.0, node.deadline - now))
             quiet = hot.wait_and_dispatch(timeout)
-            if quiet:
-                for nap in naps:
-                    nap()
             for node in nodes:
+                if quiet:
+                    node.nap()
                 if node.newest_counts:
                     node.act()
                 if node.deadline is not None and monotonic() >= node.deadline:
