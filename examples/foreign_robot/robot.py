@@ -70,8 +70,8 @@ class Robot(Node):
         self.commands += 1
 
     def move(self):
-        """Up to the present."""
-        now = time.monotonic()
+        """Up to the present, which is what the state is stamped with: the computing takes time."""
+        now, self.stamp = time.monotonic(), self.get_clock().now()
         steps = max(1, math.ceil((now - self.moved_until) / STEP))
         h = (now - self.moved_until) / steps
         for _ in range(steps):
@@ -91,7 +91,7 @@ class Robot(Node):
         effort = dict(zip(EFFORTS, self.effort, strict=True))
         message = JointState(name=JOINTS)
         if self.options.stamps:
-            message.header.stamp = self.get_clock().now().to_msg()
+            message.header.stamp = self.stamp.to_msg()
         message.position = [position.get(name, 0.0) for name in JOINTS]
         if self.options.velocity:
             message.velocity = [velocity.get(name, 0.0) for name in JOINTS]

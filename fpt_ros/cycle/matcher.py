@@ -9,6 +9,11 @@ from fpt_ros.messages.frames import SECOND, Frame
 RECENT = 16
 """Frames of an input that are kept in real time: answers may be late by as many cycles."""
 
+CLOSE = 4
+"""In real time a cycle is at least a cycle time / ``CLOSE`` after the one before. A robot's stamps
+are never exactly of the moment of its motion; over so short a time a velocity would show that
+error, many times as large as the motion."""
+
 WALL = 10**9 * SECOND
 """Stamps beyond it [ns] are of a clock of this century."""
 
@@ -18,7 +23,7 @@ class Matcher:
 
     In lockstep a cycle is complete when all inputs carry its stamp (``lag`` 1: that of the cycle
     acted on last). In real time the newest complete cycle counts, and what has a lag or is optional
-    may be absent. No stamp is acted on twice.
+    may be absent. No stamp is acted on twice, in real time none that is too ``CLOSE`` to the last.
 
     Attributes:
         acted: stamp of the cycle acted on last [ns], -1 before the first.
@@ -75,6 +80,8 @@ class Matcher:
             del recent[min(recent)]
         stamp, last = frame.stamp, self.acted
         if stamp <= last or index not in self._waited_for:
+            return None
+        if last >= 0 and stamp - last < self._cycle_time // CLOSE:
             return None
         if not all(stamp in self._recent[i] for i in self._waited_for):
             return None

@@ -15,7 +15,7 @@ INPUTS = (Input(STATE_ESTIMATE), Input(DESIRED), Input(COMMAND, lag=1))
 
 
 def estimate(k):
-    return StateEstimate(k * MS, ("q",), *[[float(k)]] * 4)
+    return StateEstimate(round(k * MS), ("q",), *[[float(k)]] * 4)
 
 
 def desired(k):
@@ -86,6 +86,12 @@ def test_in_real_time_the_newest_cycle_counts_and_a_lagging_input_may_be_absent(
     assert matcher.take(1, desired(40)) == [estimate(40), desired(40), None]
     assert matcher.take(0, estimate(43)) is None
     assert matcher.take(1, desired(43)) == [estimate(43), desired(43), None]
+
+
+def test_in_real_time_cycles_come_no_closer_than_a_quarter_of_the_cycle_time():
+    matcher = Matcher(INPUTS[:1], 4 * MS, realtime=True)
+    taken = [k for k in (0, 4, 4.5, 4.9, 5, 9, 9.25, 9.5, 13) if matcher.take(0, estimate(k))]
+    assert taken == [0, 4, 5, 9, 13]
 
 
 def test_it_goes_on_where_a_node_had_been():

@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 
 from fpt_ros.denoising.streaming import FILTERS
 
-FILTER = FILTERS["none"]
+FILTER, OF_POSITIONS = FILTERS["none"], FILTERS["finite_difference"]
 SECOND_ORDER, FIRST_ORDER, ZEROTH_ORDER = (
     FILTER.prepare({"order": order}, 2, 1e-3) for order in (2, 1, 0)
 )
@@ -54,3 +54,23 @@ def test_the_response_of_a_plant_of_order_zero_is_its_value():
     FILTER.start(ZEROTH_ORDER, state, [1.0, 2.0], [0.0, 0.0])
     FILTER.update(ZEROTH_ORDER, state, 0.5, [3.0, -4.0], [0.0, 0.0], *out)
     assert out[2] == [3.0, -4.0]
+
+
+gap = st.floats(1e-4, 1e-2)
+
+
+@settings(deadline=None)
+@given(st.floats(-5.0, 5.0), st.floats(-5.0, 5.0), gap, st.lists(gap, min_size=2, max_size=20))
+def test_of_positions_it_is_exact_at_unequal_distances_too(v, a, first, gaps):
+    """A parabola's velocity in the middle of two samples, and its acceleration."""
+    t, state = 0.0, [math.nan] * OF_POSITIONS.state_size((), 1)
+    out_q, out_v, response = [math.nan], [math.nan], [math.nan]
+    OF_POSITIONS.start((), state, [-v * first + 0.5 * a * first * first], [0.0])
+    for k, dt in enumerate([first, *gaps]):
+        t += dt if k else 0.0
+        q = v * t + 0.5 * a * t * t
+        OF_POSITIONS.update((), state, dt, [q], [math.nan], out_q, out_v, response)
+        assert out_q == [q]
+        assert out_v[0] == pytest.approx(v + a * (t - 0.5 * dt), abs=1e-10)
+        if k:
+            assert response[0] == pytest.approx(a, abs=2e-5)  # 2^-52 |q| / dt^2
