@@ -26,6 +26,7 @@ ROS = [
     "ros-jazzy-sensor-msgs",
     "ros-jazzy-trajectory-msgs",
     "ros-jazzy-diagnostic-msgs",
+    "setproctitle",  # nodes are forked, and still have names of their own
 ]
 EXTRAS = {
     "analysis": [*FIGURES, "bokeh>=3.9"],  # fpt report, demo, gain --plot

@@ -24,17 +24,19 @@ def demo(out: Out = Path("demo"), duration: Duration = None) -> None:
     from fpt_ros.cli.run import run_recorded
     from fpt_ros.errors import RunFailed
     from fpt_ros.experiments.experiment import load
+    from fpt_ros.nodes.child import Nursery
 
     folder = out / datetime.now().strftime("%Y-%m-%d_%H-%M-%S")
     check_new_directory(folder)
     bags, results = [], []
-    for variant in ("adaptive", "nonadaptive"):
-        bag = folder / f"tora_{variant}"
-        result, failure = run_recorded(load("tora", variant, duration=duration), bag)
-        if failure is not None or result is None:
-            raise failure or RunFailed(f"nothing was recorded in {bag}")
-        bags.append(bag)
-        results.append(result)
+    with Nursery() as nursery:
+        for variant in ("adaptive", "nonadaptive"):
+            bag = folder / f"tora_{variant}"
+            result, failure = run_recorded(nursery, load("tora", variant, duration=duration), bag)
+            if failure is not None or result is None:
+                raise failure or RunFailed(f"nothing was recorded in {bag}")
+            bags.append(bag)
+            results.append(result)
     page = write_report([read_outline(bag) for bag in bags], folder / "report")
     screen = console()
     screen.print(console_table(results))

@@ -24,6 +24,7 @@ from fpt_ros.cli.options import (
 
 if TYPE_CHECKING:
     from fpt_ros.experiments.experiment import Experiment
+    from fpt_ros.nodes.child import Nursery
     from fpt_ros.nodes.part import Part
     from fpt_ros.nodes.robot import Robot
 
@@ -90,29 +91,31 @@ def run(
     from fpt_ros.bags.split import Split as Parsed
     from fpt_ros.cli.output import print_json, print_result
     from fpt_ros.experiments.description import NODE
+    from fpt_ros.nodes.child import Nursery
     from fpt_ros.nodes.namespace import check
 
-    with at_once():
-        experiment = experiment_of(name, variant, set_, duration, seed)
-    if split:
-        Parsed.parse(split)
-        experiment = experiment.with_values(NODE, split=split)
-    if speed is not None:
-        realtime = True
-        experiment = experiment.with_values("plant_simulator", speed=speed)
-        experiment.loop()  # checks it
-    check(namespace)
-    robot = _robot(no_plant, composed, states, efforts, duration)
-    part = _part(only, composed, record)
-    if record is not None:
-        check_new_directory(record)
-    with at_once():
-        experiment = warn_about_gain(experiment)
-    with tempfile.TemporaryDirectory(prefix="fpt_ros-") as folder:
-        bag = record or (Path(folder) / "recording" if part is None else None)
-        result, failure = run_recorded(
-            experiment, bag, composed, realtime, namespace, robot, restarts, part
-        )
+    with Nursery() as nursery:  # it imports while we read
+        with at_once():
+            experiment = experiment_of(name, variant, set_, duration, seed)
+        if split:
+            Parsed.parse(split)
+            experiment = experiment.with_values(NODE, split=split)
+        if speed is not None:
+            realtime = True
+            experiment = experiment.with_values("plant_simulator", speed=speed)
+            experiment.loop()  # checks it
+        check(namespace)
+        robot = _robot(no_plant, composed, states, efforts, duration)
+        part = _part(only, composed, record)
+        if record is not None:
+            check_new_directory(record)
+        with at_once():
+            experiment = warn_about_gain(experiment)
+        with tempfile.TemporaryDirectory(prefix="fpt_ros-") as folder:
+            bag = record or (Path(folder) / "recording" if part is None else None)
+            result, failure = run_recorded(
+                nursery, experiment, bag, composed, realtime, namespace, robot, restarts, part
+            )
     if result is not None and bag is None:
         print_json(result) if json else print(_told(result))
     elif result is not None:
@@ -133,6 +136,7 @@ def run(
 
 
 def run_recorded(
+    nursery: "Nursery",
     experiment: "Experiment",
     bag: Path | None,
     composed: bool = False,
@@ -167,6 +171,7 @@ def run_recorded(
 
         try:
             graph.run(
+                nursery,
                 experiment,
                 bag,
                 composed,

@@ -1,15 +1,19 @@
 """A process of the graph: how it is started, what it says last, and how it ends."""
 
 import asyncio
-import ctypes
+import json
 import os
 import signal
+import socket
+import subprocess
 import sys
 import tempfile
 from collections import deque
 from collections.abc import Mapping, Sequence
+from contextlib import suppress
 from pathlib import Path
 
+from fpt_ros.cycle.stages import STAGES
 from fpt_ros.errors import BadInput, FptError, RunFailed
 from fpt_ros.nodes.run_folder import VARIABLE
 
@@ -17,7 +21,131 @@ GRACE = 1.2
 """Seconds that a process has to end when asked to, before it is killed."""
 
 LAST_LINES = 12
-PR_SET_PDEATHSIG = 1
+
+LIBRARIES = ("mujoco", "scipy.interpolate", "scipy.linalg", "scipy.optimize")
+"""Imported by some laws only: where this process has needed them, the nodes will."""
+
+
+class Nursery:
+    """The process that all nodes of a run are forked from (:mod:`fpt_ros.nodes.nursery`).
+
+    It imports what they need while we do other things. A context: at its end all have gone.
+    """
+
+    def __init__(self) -> None:
+        ours, theirs = socket.socketpair(socket.AF_UNIX, socket.SOCK_SEQPACKET)
+        with theirs:
+            self._process = subprocess.Popen(
+                [
+                    sys.executable,
+                    "-P",  # what lies in the current folder is not ours
+                    "-m",
+                    "fpt_ros.nodes.nursery",
+                    str(theirs.fileno()),
+                ],
+                stdin=subprocess.DEVNULL,
+                stdout=subprocess.DEVNULL,
+                env=environment(),
+                pass_fds=(theirs.fileno(),),
+                start_new_session=True,
+            )
+        ours.setblocking(False)
+        self._channel = ours
+        self._expected: deque[asyncio.Future[int]] = deque()
+        self._ends: dict[int, asyncio.Future[int]] = {}
+
+    def __enter__(self) -> "Nursery":
+        return self
+
+    def __exit__(self, *about: object) -> None:
+        self._channel.close()
+        self._process.kill()  # it may still be importing; nodes are sent SIGTERM
+        self._process.wait()
+
+    def listen(self) -> None:
+        """Hear of births and ends in this event loop from now on."""
+        asyncio.get_running_loop().add_reader(self._channel, self._hear)
+
+    def ignore(self) -> None:
+        """Hear of nothing any more."""
+        asyncio.get_running_loop().remove_reader(self._channel)
+
+    async def start(
+        self,
+        name: str,
+        arguments: Sequence[str],
+        descriptors: Mapping[str, int],
+        folder: Path,
+        began: int,
+    ) -> "Child":
+        """Start a node.
+
+        Args:
+            name: of the node, and of its module.
+            arguments: ROS's own.
+            folder: of the run.
+            descriptors: that it inherits, by the environment variables that tell it of them.
+            began: cycles that are done.
+
+        Raises:
+            RunFailed: the nursery has ended.
+        """
+        loop = asyncio.get_running_loop()
+        lines, output = os.pipe()
+        born: asyncio.Future[int] = loop.create_future()
+        self._expected.append(born)
+        order = {
+            "name": name,
+            "arguments": arguments,
+            "environment": {VARIABLE: str(folder)},
+            "told": [*descriptors],
+            "libraries": [each for each in LIBRARIES if name in STAGES and each in sys.modules],
+        }
+        try:
+            socket.send_fds(
+                self._channel, [json.dumps(order).encode()], [output, *descriptors.values()]
+            )
+            process = await born
+        except OSError as error:
+            raise _gone() from error
+        finally:
+            os.close(output)
+        reader = asyncio.StreamReader()
+        await loop.connect_read_pipe(
+            lambda: asyncio.StreamReaderProtocol(reader), os.fdopen(lines, "rb")
+        )
+        return Child(name, process, self._ends[process], reader, began)
+
+    def _hear(self) -> None:
+        try:
+            data = self._channel.recv(1024)
+        except ConnectionError:
+            data = b""
+        if not data:
+            self._lose()
+            return
+        told = json.loads(data)
+        process, status = told["pid"], told.get("status")
+        if status is None:
+            self._ends[process] = asyncio.get_running_loop().create_future()
+            self._expected.popleft().set_result(process)
+        else:
+            self._ends.pop(process).set_result(status)
+
+    def _lose(self) -> None:
+        """It was ended by somebody: its nodes are sent SIGTERM by the kernel."""
+        self.ignore()
+        for born in self._expected:
+            born.set_exception(_gone())
+        for end in self._ends.values():
+            end.set_result(-signal.SIGTERM)
+        self._expected.clear()
+        self._ends.clear()
+
+
+def _gone() -> RunFailed:
+    """There is no nursery any more."""
+    return RunFailed("the process that starts the nodes, fpt_ros.nodes.nursery, was ended")
 
 
 class Child:
@@ -25,28 +153,38 @@ class Child:
 
     Attributes:
         name: of the node.
+        process: its number.
         began: cycles of the run that were done then.
         spread: whether it runs on any core yet.
+        status: exit status; less than 0: the signal that killed it; None: it runs.
         end: done when the process has ended, and its last lines are read.
     """
 
-    def __init__(self, name: str, process: asyncio.subprocess.Process, began: int) -> None:
+    def __init__(
+        self,
+        name: str,
+        process: int,
+        ended: asyncio.Future[int],
+        output: asyncio.StreamReader,
+        began: int,
+    ) -> None:
         self.name, self.process, self.began = name, process, began
         self.spread = True
+        self.status: int | None = None
         self._lines: deque[str] = deque(maxlen=LAST_LINES)
+        self._exit, self._output = ended, output
         self.end = asyncio.create_task(self._ended())
 
     async def _ended(self) -> None:
-        stdout = self.process.stdout
-        assert stdout is not None
-        while line := await stdout.readline():
+        while line := await self._output.readline():
             self._lines.append(line.decode(errors="replace").rstrip())
-        await self.process.wait()
+        self.status = await self._exit
 
-    @property
-    def status(self) -> int | None:
-        """Exit status; less than 0: the signal that killed it; None: it runs."""
-        return self.process.returncode
+    def send(self, number: signal.Signals) -> None:
+        """Send a signal, if it has not ended."""
+        if not self._exit.done():
+            with suppress(ProcessLookupError):
+                os.kill(self.process, number)
 
     def how(self) -> str:
         """How it has ended."""
@@ -63,40 +201,6 @@ class Child:
             return RunFailed(own[-1])
         last = "".join(f"\n  {line}" for line in self._lines) or " nothing"
         return RunFailed(f"{self.how()}; its last lines:{last}")
-
-
-async def started(
-    name: str,
-    arguments: Sequence[str],
-    descriptors: Mapping[str, int],
-    folder: Path,
-    began: int,
-) -> Child:
-    """Start a node.
-
-    Args:
-        name: of the node, and of its module.
-        arguments: ROS's own.
-        descriptors: that it inherits, by the environment variables that tell it of them.
-        folder: of the run.
-        began: cycles that are done.
-    """
-    told = {key: str(descriptor) for key, descriptor in descriptors.items()}
-    process = await asyncio.create_subprocess_exec(
-        sys.executable,
-        "-P",  # what lies in the current folder is not ours
-        "-m",
-        f"fpt_ros.nodes.{name}",
-        *arguments,
-        stdin=asyncio.subprocess.DEVNULL,
-        stdout=asyncio.subprocess.PIPE,
-        stderr=asyncio.subprocess.STDOUT,
-        env={**environment(), VARIABLE: str(folder), **told},
-        pass_fds=tuple(descriptors.values()),
-        start_new_session=True,
-        preexec_fn=_before_it_starts,
-    )
-    return Child(name, process, began)
 
 
 def environment() -> Mapping[str, str]:
@@ -118,25 +222,16 @@ def environment() -> Mapping[str, str]:
     return {**defaults, **os.environ}
 
 
-def _before_it_starts() -> None:
-    """In the child: SIGTERM when the parent is gone, however it went; it waits until it is heard.
-
-    A recorder that is asked to end while it imports would be killed by it, its file not closed.
-    """
-    ctypes.CDLL(None).prctl(PR_SET_PDEATHSIG, signal.SIGTERM)
-    signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGTERM})
-
-
 async def end(children: Sequence[Child], grace: float = GRACE) -> None:
     """Ask processes to end, and kill those that do not."""
     running = [child for child in children if child.status is None]
     for child in running:
-        child.process.terminate()
+        child.send(signal.SIGTERM)
     if not running:
         return
     _, late = await asyncio.wait([child.end for child in running], timeout=grace)
     if late:
         for child in running:
             if child.status is None:
-                child.process.kill()
+                child.send(signal.SIGKILL)
         await asyncio.wait(late)

@@ -12,12 +12,16 @@ from fpt_ros.experiments.description import NODE as RECORDER
 from fpt_ros.nodes import asking
 from fpt_ros.nodes.intruder import Intruder
 
-PREFIX = "fpt_ros.nodes."
-
 LONGEST_STOP = 5.0
 """Seconds."""
 
 FLOOD = 2000
+
+
+def _parent(process: int) -> int:
+    """Of a process: in the nursery's case ``fpt run``."""
+    stat = Path(f"/proc/{process}/stat").read_text()
+    return int(stat.rpartition(")")[2].split()[1])
 
 
 class Victim:
@@ -30,15 +34,11 @@ class Victim:
     def nodes(self) -> dict[str, int]:
         """The nodes that run, and their processes."""
         found: dict[str, int] = {}
-        for status in Path("/proc").glob("[0-9]*/stat"):
+        for folder in Path("/proc").glob("[0-9]*"):
             with suppress(OSError, ValueError, IndexError):
-                parent = int(status.read_text().rpartition(")")[2].split()[1])
-                words = (status.parent / "cmdline").read_bytes().split(b"\0")
-                if parent != self._process:
-                    continue
-                for word in words:
-                    if word.startswith(PREFIX.encode()):
-                        found[word.decode().removeprefix(PREFIX)] = int(status.parent.name)
+                title, process = (folder / "cmdline").read_text().split()[0], int(folder.name)
+                if _parent(_parent(process)) == self._process:
+                    found[title] = process
         return found
 
     def doing(self) -> list[str]:

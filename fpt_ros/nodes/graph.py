@@ -20,7 +20,7 @@ from fpt_ros.errors import FptError, Interrupted, RunFailed
 from fpt_ros.experiments.description import NODE as RECORDER
 from fpt_ros.experiments.experiment import Experiment
 from fpt_ros.nodes import cores, doctor, run_folder
-from fpt_ros.nodes.child import Child, end, started
+from fpt_ros.nodes.child import Child, Nursery, end
 from fpt_ros.nodes.part import Part
 from fpt_ros.nodes.restarts import Restarts
 from fpt_ros.nodes.robot import Robot
@@ -33,6 +33,7 @@ RECORDER_GRACE = 10.0
 
 
 def run(
+    nursery: Nursery,
     experiment: Experiment,
     record: Path | None,
     composed: bool = False,
@@ -47,6 +48,7 @@ def run(
     """Run an experiment as processes over DDS.
 
     Args:
+        nursery: where the processes come from.
         experiment: what to run.
         record: directory of the recording, must not exist; None: no recorder is started.
         composed: the five stages in one process.
@@ -88,7 +90,7 @@ def run(
         if namespace:
             arguments += ["-r", f"__ns:=/{namespace.strip('/')}"]
         core = None if composed or realtime else cores.idlest()
-        graph = _Graph(arguments, composed, recorded, core, progress, robot, folder, part)
+        graph = _Graph(nursery, folder, arguments, composed, recorded, core, progress, robot, part)
         graph.restarts, graph.tell = restarts or Restarts(), tell
         asyncio.run(graph.run())
 
@@ -98,18 +100,19 @@ class _Graph:
 
     def __init__(
         self,
+        nursery: Nursery,
+        folder: Path,
         arguments: list[str],
         composed: bool,
         recorded: bool,
         core: int | None,
         progress: Callable[[int], None] | None,
         robot: Robot | None,
-        folder: Path,
         part: Part | None,
     ) -> None:
         self.restarts = Restarts()
         self.tell: Callable[[str], None] = lambda line: None
-        self._folder = folder
+        self._nursery, self._folder = nursery, folder
         self._descriptors: dict[str, dict[str, int]] = {}
         self._arguments = arguments
         self._robot = robot
@@ -141,6 +144,7 @@ class _Graph:
         os.set_blocking(progress_in, False)
         os.set_blocking(reason_in, False)
         loop.add_reader(progress_in, self._on_progress, progress_in)
+        self._nursery.listen()
         failure: FptError | None = None
         try:
             self._descriptors[self._plant] = {"FPT_PROGRESS_FD": progress_out}
@@ -156,6 +160,7 @@ class _Graph:
                 await end([recorder], RECORDER_GRACE)
                 if failure is None and (recorder.status or 0) < 0:
                     recorder = await self._closed_by_another(recorder)
+            self._nursery.ignore()
             for descriptor in (progress_in, progress_out, reason_in, reason_out):
                 os.close(descriptor)
         if failure is not None:
@@ -218,7 +223,7 @@ class _Graph:
 
     async def _start(self, name: str) -> None:
         descriptors = self._descriptors.get(name, {})
-        self._children[name] = await started(
+        self._children[name] = await self._nursery.start(
             name, self._arguments, descriptors, self._folder, self._cycle
         )
 
@@ -237,7 +242,7 @@ class _Graph:
                 if core is not None and child.spread and cycle > child.began + 1:  # has started
                     child.spread = False
                     if child.name not in (ParameterTuner.name, RECORDER):
-                        cores.keep_on(core, child.process.pid)
+                        cores.keep_on(core, child.process)
             if cycle != self._cycle:
                 self._cycle, self._moved = cycle, asyncio.get_running_loop().time()
             if self._progress is not None:

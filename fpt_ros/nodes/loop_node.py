@@ -61,6 +61,7 @@ class LoopNode(Node):
         finished: set when the node's work is done; the process then ends with status 0.
         deadline: monotonic time [s] at which :meth:`on_deadline` is due, or None.
         newest_counts: all messages that have come are taken, and then :meth:`act` is called.
+        awaits_answers: it has asked others, and cannot begin before they answer.
         level: of what it tells on /diagnostics.
         warning: what is to be said of it on /diagnostics; empty: nothing.
         ignored: number of messages that were not used.
@@ -71,7 +72,7 @@ class LoopNode(Node):
         self._answering = AnsweringParameterService(self)
         self.loop_subscriptions: list[Subscription] = []
         self.loop_group = LoopGroup()
-        self.finished = self.newest_counts = False
+        self.finished = self.newest_counts = self.awaits_answers = False
         self.deadline: float | None = None
         self.cycles_done = 0
         self.ignored = 0

@@ -211,10 +211,11 @@ class Recorder(LoopNode):
         if self._snapshot is None:
             names = self._loop_nodes()
             if self._matched() and not any("UNKNOWN" in name for name in names):
-                self._snapshot = Snapshot(self, names)
+                self._snapshot, self.awaits_answers = Snapshot(self, names), True
             return
         if not self._snapshot.is_done():
             return
+        self.awaits_answers = False
         for name, values in self._snapshot.parameters.items():
             self._known[name] = {**self._known.get(name, {}), **values}
         for problem in self._snapshot.problems:

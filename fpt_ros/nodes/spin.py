@@ -23,6 +23,9 @@ SERVICE_PERIOD = 0.04
 GRACE = 0.008
 """Seconds by which such a look may come later, so that it does not delay a message of the loop."""
 
+SOON = 0.002
+"""The same where more is expected and there is no loop yet that it could delay."""
+
 _CALLS = 2
 """Calls served at one look: a flood of them cannot stop the loop."""
 
@@ -104,19 +107,22 @@ class _Services:
         """Look at the next node."""
         executor, node = self._served[self._next]
         self._next = (self._next + 1) % len(self._served)
+        called = False
         for _ in range(_CALLS):
             try:
                 handler, _, _ = executor.wait_for_ready_callbacks(timeout_sec=0.0)
             except TimeoutException:
                 break  # mostly nobody calls: one look is what it costs
             handler()
+            called = True
             error = handler.exception()
             if isinstance(error, ValueError):  # rclpy's, of a parameter of a type that there is not
                 node.ignore(f"a call that cannot be read: {error}")
             elif error is not None:
                 raise error
         node.housekeeping()
-        self._due = monotonic() + SERVICE_PERIOD / len(self._served)
+        expecting = (called or node.awaits_answers) and not node.cycles_done
+        self._due = monotonic() + (SOON if expecting else SERVICE_PERIOD) / len(self._served)
 
 
 def spin(nodes: Sequence[LoopNode], stopped: Callable[[], bool], context: Context) -> None:

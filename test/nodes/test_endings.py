@@ -15,6 +15,7 @@ from command import start_fpt
 from watcher import watcher
 
 from fpt_ros.bags.reader import read_run
+from fpt_ros.cycle.stages import STAGES
 
 WITHIN = 20.0
 LONG = 1000
@@ -48,7 +49,7 @@ def left(files):
 
 def node_of(process, name):
     for child in psutil.Process(process.pid).children(recursive=True):
-        if f"fpt_ros.nodes.{name}" in child.cmdline():
+        if child.cmdline()[:1] == [name]:
             return child
     raise AssertionError(name)
 
@@ -80,7 +81,7 @@ def test_interrupt(tmp_path, options):
     process, children = under_way(tmp_path, *options)
     files = files_of(children)
     assert files
-    assert len(children) == (2 if "--composed" in options else 6)
+    assert len(children) == 1 + (2 if "--composed" in options else 6)  # the first is the nursery
     asked = monotonic()
     process.send_signal(signal.SIGINT)
     stderr = ended(process)
@@ -144,6 +145,20 @@ def test_killed_command_takes_its_nodes_with_it(tmp_path):
     run = read_run(tmp_path / "bag")
     assert run.info["complete"] == "false"
     assert f"of {LONG * 1000} cycles" in run.info["reason"]
+
+
+def test_killed_nursery_takes_its_nodes_with_it_and_one_line_says_so(tmp_path):
+    process, children = under_way(tmp_path)
+    assert [child.cmdline()[0] for child in children[1:]] == ["recorder", *reversed(STAGES)]
+    assert [child.name() for child in children[1:]] == ["recorder", *reversed(STAGES)]
+    children[0].kill()
+    stderr = ended(process)
+    assert process.returncode == 1
+    assert stderr.splitlines()[-1] == (
+        "fpt: the process that starts the nodes, fpt_ros.nodes.nursery, was ended"
+    )
+    assert gone(children)
+    assert read_run(tmp_path / "bag").info["complete"] == "false"
 
 
 def test_divergence(tmp_path):

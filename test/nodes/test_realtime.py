@@ -15,7 +15,7 @@ from fpt_ros.nodes.qos import loop_qos
 
 def node_of(process, name):
     children = psutil.Process(process.pid).children(recursive=True)
-    return next(each for each in children if f"fpt_ros.nodes.{name}" in each.cmdline())
+    return next(each for each in children if each.cmdline()[:1] == [name])
 
 
 def test_cycles_follow_the_wall_clock(tmp_path):

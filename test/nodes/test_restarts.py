@@ -61,7 +61,7 @@ def is_undisturbed(bag, result):
 
 def folders_of(process):
     used, prefix = set(), RUN_FOLDER.format(process.pid)
-    for child in psutil.Process(process.pid).children():
+    for child in psutil.Process(process.pid).children(recursive=True):
         maps = Path(f"/proc/{child.pid}/maps").read_text()
         used |= {Path(line[line.index("/") :]) for line in maps.splitlines() if prefix in line}
     return {path.parent for path in used}

@@ -15,7 +15,7 @@ from fpt_ros.experiments.experiment import load
 
 def node_of(process, name):
     children = psutil.Process(process.pid).children(recursive=True)
-    return next(each for each in children if f"fpt_ros.nodes.{name}" in each.cmdline())
+    return next(each for each in children if each.cmdline()[:1] == [name])
 
 
 def ask(*words):
