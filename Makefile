@@ -65,10 +65,10 @@ demo: $(VENV)/.demo
 	@$(BIN)/fpt demo --out $(DEMO)
 
 test: $(VENV)/.test $(VENV)/.node
-	@$(BIN)/python -m pytest -n 2 --dist worksteal
+	@$(BIN)/python -m pytest -n 3 --dist worksteal
 
 test-all: $(VENV)/.test $(VENV)/.node
-	@$(BIN)/python -m pytest -n 2 --dist worksteal --all
+	@$(BIN)/python -m pytest -n 3 --dist worksteal --all
 
 REV ?= HEAD
 same-bits: $(VENV)/.test

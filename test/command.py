@@ -6,8 +6,11 @@ import signal
 import subprocess
 import sys
 import tempfile
+from contextlib import suppress
 from functools import cache
 from pathlib import Path
+
+import psutil
 
 BIN = Path(sys.executable).parent
 TIMEOUT = 120.0
@@ -56,6 +59,21 @@ def end_started():
             except subprocess.TimeoutExpired:
                 process.kill()
                 process.communicate()
+
+
+def node_if_any(process, name):
+    """The process of a node of a ``fpt run``."""
+    for child in psutil.Process(process.pid).children(recursive=True):
+        with suppress(psutil.NoSuchProcess):
+            if child.cmdline()[:1] == [name]:
+                return child
+    return None
+
+
+def node_of(process, name):
+    found = node_if_any(process, name)
+    assert found is not None, name
+    return found
 
 
 @cache

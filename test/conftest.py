@@ -1,6 +1,7 @@
 """Every test has a ROS domain of its own, on this machine only: tests run side by side."""
 
 import fcntl
+import gc
 import signal
 import tempfile
 from pathlib import Path
@@ -25,6 +26,8 @@ def pytest_configure(config):
     # started in the background Ctrl-C is ignored, also by the commands that tests start
     signal.signal(signal.SIGINT, signal.default_int_handler)
     samples.whole = config.getoption("--all")
+    # a thousand tests leave so much that a tenth of the time went into searches for garbage
+    gc.set_threshold(100_000, 50, 100)
     # no deadlines: a busy machine is slow at random
     settings.register_profile("sample", derandomize=True, deadline=None)
     settings.register_profile("whole", deadline=None)

@@ -9,11 +9,11 @@ def list_experiments(json: Json = False) -> None:
     Example: fpt list
     """
     from fpt_ros.cli.output import console, print_json
-    from fpt_ros.experiments.experiment import BASE, available, load
+    from fpt_ros.experiments.experiment import BASE, available, described
 
     experiments = []
     for name, variants in available().items():
-        about = {variant: load(name, variant).about for variant in variants}
+        about = {variant: described(name, variant) for variant in variants}
         base = about[BASE]
         experiments.append(
             {

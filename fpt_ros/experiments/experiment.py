@@ -167,6 +167,16 @@ def load(
     return experiment
 
 
+def described(name: str, variant: str) -> dict[str, object]:
+    """What the files of an experiment of the package say of a variant; it is not made."""
+    path = _path_of(name)
+    file = parameter_file.read(path)
+    for word in _words(variant):
+        file = file.overlay(parameter_file.read(_variant_path(path, word)))
+    defaults = {each.name: each.default for each in description.PARAMETERS}
+    return {**defaults, **file.nodes[description.NODE]}
+
+
 def complete(file: ParameterFile) -> dict[str, dict[str, Value]]:
     """Complete, checked parameters of the nodes that a file has sections for.
 

@@ -11,7 +11,7 @@ import pytest
 import samples
 from command import forked_fpt as fpt
 from command import forked_fpt_json as fpt_json
-from command import start_fpt
+from command import node_of, start_fpt
 from watcher import watcher
 
 from fpt_ros.bags.reader import read_run
@@ -45,13 +45,6 @@ def files_of(children):
 
 def left(files):
     return {path for path in files if path.exists()}
-
-
-def node_of(process, name):
-    for child in psutil.Process(process.pid).children(recursive=True):
-        if child.cmdline()[:1] == [name]:
-            return child
-    raise AssertionError(name)
 
 
 def under_way(tmp_path, *options):

@@ -1,8 +1,7 @@
 """The graph on the wall clock."""
 
 import numpy as np
-import psutil
-from command import forked_fpt, start_fpt
+from command import forked_fpt, node_of, start_fpt
 from command import forked_fpt_json as fpt_json
 from mcap_ros2.reader import read_ros2_messages
 from sensor_msgs.msg import JointState
@@ -11,11 +10,6 @@ from watcher import watcher
 from fpt_ros.bags.reader import info, read_run
 from fpt_ros.cycle.stages import STAGES
 from fpt_ros.nodes.qos import loop_qos
-
-
-def node_of(process, name):
-    children = psutil.Process(process.pid).children(recursive=True)
-    return next(each for each in children if each.cmdline()[:1] == [name])
 
 
 def test_cycles_follow_the_wall_clock(tmp_path):

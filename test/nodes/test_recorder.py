@@ -13,8 +13,8 @@ import pytest
 import samples
 from command import forked_fpt as fpt
 from command import forked_fpt_json as fpt_json
-from command import start_fpt
-from test_endings import ended, node_of, under_way
+from command import node_of, start_fpt
+from test_endings import ended, under_way
 from watcher import watcher
 
 from fpt_ros.bags.reader import info, read_run

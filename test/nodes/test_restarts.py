@@ -10,10 +10,9 @@ import numpy as np
 import psutil
 import pytest
 import samples
-from command import start_fpt
+from command import node_if_any, node_of, start_fpt
 from std_srvs.srv import Trigger
 from stranger import kinds, stranger
-from test_endings import node_of
 from test_strangers import HEARD
 from watcher import watcher
 
@@ -129,10 +128,10 @@ def test_each_node_one_after_the_other_in_one_run(tmp_path, name, seconds, optio
 def test_a_recorder_that_is_killed_when_the_plant_has_gone(tmp_path):
     """All is recorded, but the file is not closed: the next one does it, though asked to end."""
     process = start_fpt("run", "tora", "--duration", 4, "--record", tmp_path / "bag", "--json")
-    while not list(tmp_path.glob("bag/*.mcap")):
+    while (plant := node_if_any(process, "plant_simulator")) is None:
         assert process.poll() is None
         sleep(0.01)
-    node_of(process, "plant_simulator").wait(timeout=PATIENCE)
+    plant.wait(timeout=PATIENCE)
     with suppress(AssertionError, psutil.NoSuchProcess):  # it may have ended by itself
         node_of(process, "recorder").kill()
     result, _ = outcome(process)

@@ -3,19 +3,13 @@
 import signal
 
 import numpy as np
-import psutil
-from command import forked_fpt, forked_fpt_json, start_fpt
+from command import forked_fpt, forked_fpt_json, node_of, start_fpt
 from std_msgs.msg import Bool
 from watcher import watcher
 
 from fpt_ros.bags.reader import read_run
 from fpt_ros.engine.engine import Engine
 from fpt_ros.experiments.experiment import load
-
-
-def node_of(process, name):
-    children = psutil.Process(process.pid).children(recursive=True)
-    return next(each for each in children if each.cmdline()[:1] == [name])
 
 
 def ask(*words):
