@@ -1,4 +1,4 @@
-"""How long things take to start: commands from a cold shell, and a node until it is ready.
+"""How long things take to start: commands from a cold shell, a graph, and a node until it is ready.
 
 The ratio is to a Python that imports numpy and nothing else, started in the same run. A node is
 ready when it has been set up and waits for its messages.
@@ -15,6 +15,7 @@ from time import monotonic, sleep
 from measure import alternate, arguments, median, show
 
 FPT = str(Path(sys.executable).with_name("fpt"))
+SHORT_RUN = [FPT, "run", "tora", "--duration", "0.05"]
 READY_PROBE = """
 import os, sys
 from fpt_ros.nodes import loop_node, spin
@@ -83,6 +84,7 @@ def main() -> None:
                 "fpt --help": lambda: seconds([FPT, "--help"]),
                 "fpt simulate tora, code cached": lambda: seconds([FPT, "simulate", "tora"]),
                 "fpt simulate tora, first start ever": first_start,
+                "fpt run tora, of 50 cycles": lambda: seconds(SHORT_RUN),
                 "a node until ready": lambda: node()[0],
             },
             options.runs,
