@@ -75,7 +75,7 @@ same-bits: $(VENV)/.test
 	@$(BIN)/python test/same_bits $(REV) $(OPTIONS)
 
 bench: $(VENV)/.bench
-	@for each in engine robots long streaming sweep start graph realtime recorder recordings report; do $(BIN)/python benchmarks/$$each.py || exit 1; done
+	@for each in engine robots long streaming sweep start graph realtime recorder watch recordings report; do $(BIN)/python benchmarks/$$each.py || exit 1; done
 
 lint: $(VENV)/.lint
 	@$(BIN)/ruff check .

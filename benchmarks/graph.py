@@ -100,6 +100,7 @@ def measure_graph(name: str, seconds: float, composed: bool, recorded: bool) -> 
     """Cycles a second, the first part of the run (discovery) not counted."""
     from fpt_ros.experiments.experiment import load
     from fpt_ros.nodes import graph
+    from fpt_ros.nodes.child import Nursery
 
     experiment = load(name).with_values("plant_simulator", duration=seconds)
     total = experiment.loop().plant.cycles
@@ -109,9 +110,9 @@ def measure_graph(name: str, seconds: float, composed: bool, recorded: bool) -> 
         if done > COUNTED_FROM * total:
             pace.append((time.monotonic(), done))
 
-    with tempfile.TemporaryDirectory(prefix="fpt-bench-") as folder:
+    with tempfile.TemporaryDirectory(prefix="fpt-bench-") as folder, Nursery() as nursery:
         bag = Path(folder) / "bag" if recorded else None
-        graph.run(experiment, bag, composed=composed, progress=progress)
+        graph.run(nursery, experiment, bag, composed=composed, progress=progress)
     return (pace[-1][1] - pace[0][1]) / (pace[-1][0] - pace[0][0])
 
 

@@ -90,7 +90,8 @@ def run(seconds: float, composed: bool, bag: Path | None) -> Latencies:
     assert listener.stdout is not None
     try:
         listener.stdout.readline()
-        graph.run(experiment, bag, composed=composed, realtime=True)
+        with child.Nursery() as nursery:
+            graph.run(nursery, experiment, bag, composed=composed, realtime=True)
         said, _ = listener.communicate(timeout=30)
     finally:
         listener.kill()

@@ -10,7 +10,7 @@ from typing import Any
 from bokeh.document import Document
 from bokeh.events import DocumentReady
 from bokeh.layouts import column, row
-from bokeh.models import CustomJS, LayoutDOM
+from bokeh.models import ColumnDataSource, CustomJS, LayoutDOM
 from bokeh.models.widgets.buttons import Button
 from bokeh.models.widgets.groups import CheckboxButtonGroup
 from bokeh.models.widgets.inputs import NumericInput, Select
@@ -45,8 +45,17 @@ BUTTONS = (
 )
 """Label, service, and the look of it; one whose service is not there is not shown."""
 
-DRAWN = "requestAnimationFrame(() => { drawn.text = sent.text })"
-"""In the browser: it says so when it has drawn what was sent."""
+REST = 14
+"""Times as long as it has drawn a picture a browser waits for the next one: it may share its cores
+with the loop, and without a graphics card drawing takes a tenth of them even so."""
+
+DRAWN = f"""
+const began = performance.now();
+requestAnimationFrame(() => setTimeout(() => {{
+  setTimeout(() => {{ drawn.data = sent.data }}, {REST} * (performance.now() - began));
+}}));
+"""
+"""In the browser: it says so when it has drawn what was sent, and rested."""
 
 STYLE = """
 <style>
@@ -94,10 +103,11 @@ class Page:
         self._parameters = column(sizing_mode="stretch_width")
         self._drawing = column()
         self._document = document
-        self._sent = Div(visible=False, name="sent")
-        self._drawn = Div(visible=False, name="drawn")
+        # no widgets: a change of one, though not visible, lays out the whole page anew
+        self._sent = ColumnDataSource({"turn": [0]}, name="sent")
+        self._drawn = ColumnDataSource({"turn": [0]}, name="drawn")
         drawn = CustomJS(args={"sent": self._sent, "drawn": self._drawn}, code=DRAWN)
-        self._sent.js_on_change("text", drawn)
+        self._sent.js_on_change("data", drawn)
         document.js_on_event(DocumentReady, drawn)  # the first came with the page
         document.title = "fpt watch"
         document.add_root(self._layout())
@@ -123,8 +133,8 @@ class Page:
             top,
             row(left, right, sizing_mode="stretch_width"),
             self._table,
-            self._sent,
             sizing_mode="stretch_width",
+            tags=[self._sent],
         )
 
     def _button(self, label: str, service: str, look: Any) -> tuple[str, Button]:
@@ -139,13 +149,13 @@ class Page:
         Otherwise they would queue, and what the user does would wait behind them. A tab that is
         not on the screen draws nothing and costs nothing.
         """
-        if self.ended or self._drawn.text != self._sent.text:
+        if self.ended or self._drawn.data["turn"] != self._sent.data["turn"]:
             return
         self._document.hold("combine")  # one message, drawn at once
         try:
             self._update()
             self._turn += 1
-            self._sent.text = str(self._turn)
+            self._sent.data = {"turn": [self._turn]}
         finally:
             self._document.unhold()
 
@@ -208,7 +218,7 @@ class Page:
         last = heard.now
         self._plots.show(found, joints, (last - seconds, last))
         self._plots.show_latencies(list(robot.latencies))
-        self._state.text = f"<b>{html.escape(robot.state())}</b>, t = {last:.3f} s"
+        self._state.text = f"<b>{html.escape(robot.state())}</b>"
         if self._arm is not None and heard.last >= 0:
             nominal = {name: _newest(heard.tracks["desired"], "positions", name) for name in joints}
             topic, vector = measured(heard)
