@@ -26,6 +26,10 @@ LIBRARIES = ("mujoco", "scipy.interpolate", "scipy.linalg", "scipy.optimize")
 """Imported by some laws only: where this process has needed them, the nodes will."""
 
 
+Birth = tuple[int, asyncio.Future[int]]
+"""A node's process, and the exit status that it will have."""
+
+
 class Nursery:
     """The process that all nodes of a run are forked from (:mod:`fpt_ros.nodes.nursery`).
 
@@ -51,7 +55,7 @@ class Nursery:
             )
         ours.setblocking(False)
         self._channel = ours
-        self._expected: deque[asyncio.Future[int]] = deque()
+        self._expected: deque[asyncio.Future[Birth]] = deque()
         self._ends: dict[int, asyncio.Future[int]] = {}
 
     def __enter__(self) -> "Nursery":
@@ -92,7 +96,7 @@ class Nursery:
         """
         loop = asyncio.get_running_loop()
         lines, output = os.pipe()
-        born: asyncio.Future[int] = loop.create_future()
+        born: asyncio.Future[Birth] = loop.create_future()
         self._expected.append(born)
         order = {
             "name": name,
@@ -105,8 +109,9 @@ class Nursery:
             socket.send_fds(
                 self._channel, [json.dumps(order).encode()], [output, *descriptors.values()]
             )
-            process = await born
+            process, ended = await born
         except OSError as error:
+            os.close(lines)
             raise _gone() from error
         finally:
             os.close(output)
@@ -114,12 +119,14 @@ class Nursery:
         await loop.connect_read_pipe(
             lambda: asyncio.StreamReaderProtocol(reader), os.fdopen(lines, "rb")
         )
-        return Child(name, process, self._ends[process], reader, began)
+        return Child(name, process, ended, reader, began)
 
     def _hear(self) -> None:
         try:
             data = self._channel.recv(1024)
-        except ConnectionError:
+        except BlockingIOError:
+            return
+        except OSError:
             data = b""
         if not data:
             self._lose()
@@ -127,8 +134,8 @@ class Nursery:
         told = json.loads(data)
         process, status = told["pid"], told.get("status")
         if status is None:
-            self._ends[process] = asyncio.get_running_loop().create_future()
-            self._expected.popleft().set_result(process)
+            end = self._ends[process] = asyncio.get_running_loop().create_future()
+            self._expected.popleft().set_result((process, end))
         else:
             self._ends.pop(process).set_result(status)
 

@@ -248,8 +248,7 @@ class Recorder(LoopNode):
         """Side topics are looked at now and then: the last reports of the others wait unread."""
         for subscription, record in self._side_subscriptions:
             for _ in range(SIDE_DEPTH):
-                taken = subscription.handle.take_message(subscription.msg_type, True)
-                if taken is None:
+                if (taken := subscription.handle.take_message(subscription.msg_type, True)) is None:
                     break
                 record(taken[0])
 
