@@ -5,7 +5,6 @@ import signal
 
 from fpt_ros.nodes.child import Nursery, end
 
-
 LIVES = ("--ros-args", "-p", "joints:=[q]")
 """Arguments of a denoiser that waits for messages."""
 
