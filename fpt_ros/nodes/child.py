@@ -11,11 +11,14 @@ import tempfile
 from collections import deque
 from collections.abc import Mapping, Sequence
 from contextlib import suppress
+from importlib.util import find_spec
 from pathlib import Path
 
 from fpt_ros.cycle.stages import STAGES
 from fpt_ros.errors import BadInput, FptError, RunFailed
 from fpt_ros.nodes.run_folder import VARIABLE
+
+NEEDED = ("rclpy", "setproctitle")
 
 GRACE = 1.2
 """Seconds that a process has to end when asked to, before it is killed."""
@@ -37,6 +40,17 @@ class Nursery:
     """
 
     def __init__(self) -> None:
+        """Begin.
+
+        Raises:
+            BadInput: what nodes cannot do without is not installed.
+        """
+        for module in NEEDED:
+            if find_spec(module) is None:
+                raise BadInput(
+                    f"{module} is not installed: source a Jazzy and its packages, or pip install "
+                    "'fpt_ros[ros]'"
+                )
         ours, theirs = socket.socketpair(socket.AF_UNIX, socket.SOCK_SEQPACKET)
         with theirs:
             self._process = subprocess.Popen(
@@ -49,12 +63,13 @@ class Nursery:
                 ],
                 stdin=subprocess.DEVNULL,
                 stdout=subprocess.DEVNULL,
+                stderr=subprocess.PIPE,
                 env=environment(),
                 pass_fds=(theirs.fileno(),),
                 start_new_session=True,
             )
         ours.setblocking(False)
-        self._channel = ours
+        self._channel, self._why = ours, "was ended"
         self._expected: deque[asyncio.Future[Birth]] = deque()
         self._ends: dict[int, asyncio.Future[int]] = {}
 
@@ -64,7 +79,7 @@ class Nursery:
     def __exit__(self, *about: object) -> None:
         self._channel.close()
         self._process.kill()  # it may still be importing; nodes are sent SIGTERM
-        self._process.wait()
+        self._process.communicate()
 
     def listen(self) -> None:
         """Hear of births and ends in this event loop from now on."""
@@ -112,7 +127,9 @@ class Nursery:
             process, ended = await born
         except OSError as error:
             os.close(lines)
-            raise _gone() from error
+            self._expected.pop()
+            self._lose()
+            raise self._gone() from error
         finally:
             os.close(output)
         reader = asyncio.StreamReader()
@@ -140,19 +157,22 @@ class Nursery:
             self._ends.pop(process).set_result(status)
 
     def _lose(self) -> None:
-        """It was ended by somebody: its nodes are sent SIGTERM by the kernel."""
+        """It failed, or was ended by somebody: its nodes are sent SIGTERM by the kernel."""
         self.ignore()
+        assert self._process.stderr is not None
+        said = self._process.stderr.read().decode(errors="replace").splitlines()
+        if said:
+            self._why = f"has failed: {said[-1]}"
         for born in self._expected:
-            born.set_exception(_gone())
+            born.set_exception(self._gone())
         for end in self._ends.values():
             end.set_result(-signal.SIGTERM)
         self._expected.clear()
         self._ends.clear()
 
-
-def _gone() -> RunFailed:
-    """There is no nursery any more."""
-    return RunFailed("the process that starts the nodes, fpt_ros.nodes.nursery, was ended")
+    def _gone(self) -> RunFailed:
+        name = "the process that starts the nodes, fpt_ros.nodes.nursery,"
+        return RunFailed(f"{name} {self._why}")
 
 
 class Child:

@@ -2,7 +2,11 @@
 
 import asyncio
 import signal
+import sys
 
+import pytest
+
+from fpt_ros.errors import BadInput, RunFailed
 from fpt_ros.nodes.child import Nursery, end
 
 LIVES = ("--ros-args", "-p", "joints:=[q]")
@@ -51,3 +55,14 @@ def test_what_a_node_that_fails_has_said_is_kept(tmp_path):
 def test_asked_to_end_before_it_can_hear_that_it_ends_as_soon_as_it_can(tmp_path):
     (child,) = ended(tmp_path, *LIVES, kill=signal.SIGTERM)
     assert child.status == 0
+
+
+def test_without_a_ros_one_line_says_what_is_needed(tmp_path, monkeypatch):
+    with monkeypatch.context() as patch:
+        patch.setitem(sys.modules, "rclpy", None)
+        with pytest.raises(BadInput, match="rclpy is not installed: source a Jazzy"):
+            Nursery()
+    (tmp_path / "rclpy.py").write_text("raise ImportError('librcl.so: cannot open')")
+    monkeypatch.setenv("PYTHONPATH", str(tmp_path))
+    with pytest.raises(RunFailed, match=r"nursery, has failed: ImportError: librcl.so: cannot op"):
+        ended(tmp_path)
