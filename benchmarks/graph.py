@@ -100,7 +100,7 @@ def measure_graph(name: str, seconds: float, composed: bool, recorded: bool) -> 
     """Cycles a second, the first part of the run (discovery) not counted."""
     from fpt_ros.experiments.experiment import load
     from fpt_ros.nodes import graph
-    from fpt_ros.nodes.child import Nursery
+    from fpt_ros.nodes.nursery import Nursery
 
     experiment = load(name).with_values("plant_simulator", duration=seconds)
     total = experiment.loop().plant.cycles

@@ -77,6 +77,7 @@ def run(seconds: float, composed: bool, bag: Path | None) -> Latencies:
     """One run of TORA on the wall clock, and what its plant said last."""
     from fpt_ros.experiments.experiment import load
     from fpt_ros.nodes import child, graph
+    from fpt_ros.nodes.nursery import Nursery
 
     experiment = load("tora").with_values("plant_simulator", duration=seconds)
     pipe = subprocess.PIPE
@@ -90,7 +91,7 @@ def run(seconds: float, composed: bool, bag: Path | None) -> Latencies:
     assert listener.stdout is not None
     try:
         listener.stdout.readline()
-        with child.Nursery() as nursery:
+        with Nursery() as nursery:
             graph.run(nursery, experiment, bag, composed=composed, realtime=True)
         said, _ = listener.communicate(timeout=30)
     finally:

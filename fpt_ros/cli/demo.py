@@ -24,7 +24,7 @@ def demo(out: Out = Path("demo"), duration: Duration = None) -> None:
     from fpt_ros.cli.run import run_recorded
     from fpt_ros.errors import RunFailed
     from fpt_ros.experiments.experiment import load
-    from fpt_ros.nodes.child import Nursery
+    from fpt_ros.nodes.nursery import Nursery
 
     folder = out / datetime.now().strftime("%Y-%m-%d_%H-%M-%S")
     check_new_directory(folder)

@@ -24,7 +24,7 @@ from fpt_ros.cli.options import (
 
 if TYPE_CHECKING:
     from fpt_ros.experiments.experiment import Experiment
-    from fpt_ros.nodes.child import Nursery
+    from fpt_ros.nodes.nursery import Nursery
     from fpt_ros.nodes.part import Part
     from fpt_ros.nodes.robot import Robot
 
@@ -91,8 +91,8 @@ def run(
     from fpt_ros.bags.split import Split as Parsed
     from fpt_ros.cli.output import print_json, print_result
     from fpt_ros.experiments.description import NODE
-    from fpt_ros.nodes.child import Nursery
     from fpt_ros.nodes.namespace import check
+    from fpt_ros.nodes.nursery import Nursery
 
     with Nursery() as nursery:  # it imports while we read
         with at_once():

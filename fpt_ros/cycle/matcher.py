@@ -9,10 +9,10 @@ from fpt_ros.messages.frames import SECOND, Frame
 RECENT = 16
 """Frames of an input that are kept in real time: answers may be late by as many cycles."""
 
-CLOSE = 4
-"""In real time a cycle is at least a cycle time / ``CLOSE`` after the one before. A robot's stamps
-are never exactly of the moment of its motion; over so short a time a velocity would show that
-error, many times as large as the motion."""
+CLOSEST = 0.25
+"""Part of a cycle time that lies between two cycles at least, in real time. A robot's stamps are
+never exactly of the moment of its motion; over a shorter time a velocity would show that error,
+many times as large as the motion."""
 
 WALL = 10**9 * SECOND
 """Stamps beyond it [ns] are of a clock of this century."""
@@ -23,7 +23,8 @@ class Matcher:
 
     In lockstep a cycle is complete when all inputs carry its stamp (``lag`` 1: that of the cycle
     acted on last). In real time the newest complete cycle counts, and what has a lag or is optional
-    may be absent. No stamp is acted on twice, in real time none that is too ``CLOSE`` to the last.
+    may be absent. No stamp is acted on twice, in real time none closer to the last
+    than ``CLOSEST``.
 
     Attributes:
         acted: stamp of the cycle acted on last [ns], -1 before the first.
@@ -81,7 +82,7 @@ class Matcher:
         stamp, last = frame.stamp, self.acted
         if stamp <= last or index not in self._waited_for:
             return None
-        if last >= 0 and stamp - last < self._cycle_time // CLOSE:
+        if last >= 0 and stamp - last < CLOSEST * self._cycle_time:
             return None
         if not all(stamp in self._recent[i] for i in self._waited_for):
             return None

@@ -19,7 +19,7 @@ FLOOD = 2000
 
 
 def _parent(process: int) -> int:
-    """Of a process: in the nursery's case ``fpt run``."""
+    """Of a process: of a node the nurse, of that ``fpt run``."""
     stat = Path(f"/proc/{process}/stat").read_text()
     return int(stat.rpartition(")")[2].split()[1])
 

@@ -20,7 +20,8 @@ from fpt_ros.errors import FptError, Interrupted, RunFailed
 from fpt_ros.experiments.description import NODE as RECORDER
 from fpt_ros.experiments.experiment import Experiment
 from fpt_ros.nodes import cores, doctor, run_folder
-from fpt_ros.nodes.child import Child, Nursery, end
+from fpt_ros.nodes.child import Child, end
+from fpt_ros.nodes.nursery import Nursery
 from fpt_ros.nodes.part import Part
 from fpt_ros.nodes.restarts import Restarts
 from fpt_ros.nodes.robot import Robot

@@ -1,178 +1,169 @@
-"""The process that all nodes of a run are forked from: it has imported what they need.
+"""Where the processes of a run come from, as who asks for them sees it."""
 
-Most of a node's start are imports; forked it takes a fifth of the time, and shares their memory.
-Threads are not forked, so that rclpy is initialised in the node itself; those that libraries start
-when they are loaded (OpenBLAS, which knows of forks, and LTTng, which waits for a tracer) are not
-missed: whoever traces nodes starts them by hand or by launch.
-
-Orders come in through a socket as JSON, with the descriptors that the node inherits, first that of
-its output. What goes out: ``{"pid"}`` of the node that was born, and ``{"pid", "status"}`` of each
-that has ended. Without anybody at the other end of the socket this process ends, and the nodes with
-it.
-"""
-
-import ctypes
-import gc
-import importlib
+import asyncio
 import json
 import os
-import select
 import signal
 import socket
+import subprocess
 import sys
-import traceback
-import warnings
-from collections.abc import Sequence
-from contextlib import suppress
-from typing import Any
+from collections import deque
+from collections.abc import Mapping, Sequence
+from importlib.util import find_spec
+from pathlib import Path
 
-from fpt_ros.nodes.loop_node import message_class
-from fpt_ros.nodes.side_topics import SIDE_TOPICS
+from fpt_ros.cycle.stages import STAGES
+from fpt_ros.errors import BadInput, RunFailed
+from fpt_ros.nodes.child import Child, environment
+from fpt_ros.nodes.run_folder import VARIABLE
 
-LONGEST = 65536
-"""Bytes of an order at most."""
+NEEDED = ("rclpy", "setproctitle")
+"""Modules without which no node can be started."""
 
-INHERITED = 8
-"""Descriptors with an order at most."""
+LIBRARIES = ("mujoco", "scipy.interpolate", "scipy.linalg", "scipy.optimize")
+"""Imported by some laws only: where this process has needed them, the nodes will."""
 
-PR_SET_PDEATHSIG = 1
-
-MODULES = (
-    "plant_simulator",
-    "denoiser",
-    "trajectory_generator",
-    "parameter_tuner",
-    "fpt_deformer",
-    "recorder",
-    "composed",
-)
-"""Of this package, each with a ``main``."""
+Birth = tuple[int, asyncio.Future[int]]
+"""A node's process, and the exit status that it will have."""
 
 
-TYPES = (
-    "builtin_interfaces/msg/Time",
-    "lifecycle_msgs/msg/TransitionEvent",
-    "lifecycle_msgs/srv/ChangeState",
-    "rcl_interfaces/srv/GetParameters",
-    "sensor_msgs/msg/JointState",
-    "std_msgs/msg/UInt8MultiArray",
-    "std_srvs/srv/Trigger",
-    "trajectory_msgs/msg/JointTrajectoryPoint",
-    "type_description_interfaces/srv/GetTypeDescription",
-)
-"""One of each package of messages: it brings the others, and what is needed to read them."""
+class Nursery:
+    """The process that all nodes of a run are forked from (:mod:`fpt_ros.nodes.nurse`).
 
-
-def prepare() -> None:
-    """Import what nodes import, now or when they are made."""
-    for name in MODULES:
-        importlib.import_module(f"fpt_ros.nodes.{name}")
-    for each in (*TYPES, *SIDE_TOPICS.values()):
-        type(message_class(each)).__import_type_support__()
-    gc.freeze()  # what is never garbage is not looked at, and so stays shared
-
-
-class Nurse:
-    """Forks nodes and says how they end."""
-
-    def __init__(self, channel: socket.socket) -> None:
-        self._channel = channel
-        self._children: dict[int, int] = {}  # by their process descriptors
-        self._poll = select.poll()
-        self._poll.register(channel, select.POLLIN)
-
-    def serve(self) -> None:
-        """Until nobody is at the other end; in a node, until it ends."""
-        while True:
-            for descriptor, _ in self._poll.poll():
-                if descriptor != self._channel.fileno():
-                    self._bury(descriptor)
-                    continue
-                order, inherited, _, _ = socket.recv_fds(self._channel, LONGEST, INHERITED)
-                if not order:
-                    return
-                self._fork(inherited, **json.loads(order))
-
-    def _fork(self, inherited: list[int], libraries: Sequence[str], **node: Any) -> None:
-        for name in libraries:
-            importlib.import_module(name)
-        parent, child = os.getpid(), os.fork()
-        if child == 0:
-            self._channel.close()
-            for descriptor in self._children:
-                os.close(descriptor)
-            become(parent, inherited, **node)
-        for descriptor in inherited:
-            os.close(descriptor)
-        watched = os.pidfd_open(child)
-        self._poll.register(watched, select.POLLIN)
-        self._children[watched] = child
-        self._tell(pid=child)
-
-    def _bury(self, watched: int) -> None:
-        child = self._children.pop(watched)
-        self._poll.unregister(watched)
-        os.close(watched)
-        status = os.waitstatus_to_exitcode(os.waitpid(child, 0)[1])
-        self._tell(pid=child, status=status)
-
-    def _tell(self, **message: int) -> None:
-        with suppress(OSError):  # nobody is there: so says the next look at the channel, too
-            self._channel.send(json.dumps(message).encode())
-
-
-def become(
-    parent: int,
-    inherited: list[int],
-    name: str,
-    arguments: list[str],
-    environment: dict[str, str],
-    told: list[str],
-) -> None:
-    """Be the node ``name``, in a session of its own; it does not come back.
-
-    Args:
-        parent: this process before the fork; when it ends the node is sent SIGTERM.
-        inherited: descriptors; the first takes what the node writes.
-        name, arguments: module and what would stand on its command line.
-        environment: variables to set.
-        told: environment variables that tell of the other descriptors.
+    It imports what they need while we do other things. A context: at its end all have gone.
     """
-    from setproctitle import setproctitle, setthreadtitle
 
-    os.setsid()
-    ctypes.CDLL(None).prctl(PR_SET_PDEATHSIG, signal.SIGTERM)
-    if os.getppid() != parent:
-        os._exit(1)
-    for standard in (1, 2):
-        os.dup2(inherited[0], standard)
-    os.close(inherited[0])
-    os.environ.update(environment)
-    os.environ.update(zip(told, map(str, inherited[1:]), strict=True))
-    sys.argv = [name, *arguments]
-    setproctitle(" ".join([name, *arguments]))
-    setthreadtitle(name)
-    status: object = 1
-    try:
-        importlib.import_module(f"fpt_ros.nodes.{name}").main()
-    except SystemExit as end:
-        status = end.code
-    except BaseException:
-        traceback.print_exc()
-    sys.stdout.flush()
-    sys.stderr.flush()
-    os._exit(status if isinstance(status, int) else 0 if status is None else 1)
+    def __init__(self) -> None:
+        """Begin.
 
+        Raises:
+            BadInput: what nodes cannot do without is not installed.
+        """
+        for module in NEEDED:
+            if find_spec(module) is None:
+                raise BadInput(
+                    f"{module} is not installed: source a Jazzy and its packages, or pip install "
+                    "'fpt_ros[ros]'"
+                )
+        ours, theirs = socket.socketpair(socket.AF_UNIX, socket.SOCK_SEQPACKET)
+        with theirs:
+            self._process = subprocess.Popen(
+                [
+                    sys.executable,
+                    "-P",  # what lies in the current folder is not ours
+                    "-m",
+                    "fpt_ros.nodes.nurse",
+                    str(theirs.fileno()),
+                ],
+                stdin=subprocess.DEVNULL,
+                stdout=subprocess.DEVNULL,
+                stderr=subprocess.PIPE,
+                env=environment(),
+                pass_fds=(theirs.fileno(),),
+                start_new_session=True,
+            )
+        ours.setblocking(False)
+        self._channel, self._why = ours, "was ended"
+        self._expected: deque[asyncio.Future[Birth]] = deque()
+        self._ends: dict[int, asyncio.Future[int]] = {}
 
-def main() -> None:
-    """``python -m fpt_ros.nodes.nursery SOCKET``."""
-    # asked to end while it starts, a node does so as soon as it can hear that
-    signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGTERM})
-    warnings.filterwarnings("ignore", ".*multi-threaded", DeprecationWarning)  # of Python 3.12
-    channel = socket.socket(fileno=int(sys.argv[1]))
-    prepare()
-    Nurse(channel).serve()
+    def __enter__(self) -> "Nursery":
+        return self
 
+    def __exit__(self, *about: object) -> None:
+        self._channel.close()
+        self._process.kill()  # it may still be importing; nodes are sent SIGTERM
+        self._process.communicate()
 
-if __name__ == "__main__":
-    main()
+    def listen(self) -> None:
+        """Hear of births and ends in this event loop from now on."""
+        asyncio.get_running_loop().add_reader(self._channel, self._hear)
+
+    def ignore(self) -> None:
+        """Hear of nothing any more."""
+        asyncio.get_running_loop().remove_reader(self._channel)
+
+    async def start(
+        self,
+        name: str,
+        arguments: Sequence[str],
+        descriptors: Mapping[str, int],
+        folder: Path,
+        began: int,
+    ) -> Child:
+        """Start a node.
+
+        Args:
+            name: of the node, and of its module.
+            arguments: ROS's own.
+            folder: of the run.
+            descriptors: that it inherits, by the environment variables that tell it of them.
+            began: cycles that are done.
+
+        Raises:
+            RunFailed: the nursery has ended.
+        """
+        loop = asyncio.get_running_loop()
+        lines, output = os.pipe()
+        born: asyncio.Future[Birth] = loop.create_future()
+        self._expected.append(born)
+        order = {
+            "name": name,
+            "arguments": arguments,
+            "environment": {VARIABLE: str(folder)},
+            "told": [*descriptors],
+            "libraries": [each for each in LIBRARIES if name in STAGES and each in sys.modules],
+        }
+        try:
+            socket.send_fds(
+                self._channel, [json.dumps(order).encode()], [output, *descriptors.values()]
+            )
+            process, ended = await born
+        except OSError as error:
+            os.close(lines)
+            self._expected.pop()
+            self._lose()
+            raise self._gone() from error
+        finally:
+            os.close(output)
+        reader = asyncio.StreamReader()
+        await loop.connect_read_pipe(
+            lambda: asyncio.StreamReaderProtocol(reader), os.fdopen(lines, "rb")
+        )
+        return Child(name, process, ended, reader, began)
+
+    def _hear(self) -> None:
+        try:
+            data = self._channel.recv(1024)
+        except BlockingIOError:
+            return
+        except OSError:
+            data = b""
+        if not data:
+            self._lose()
+            return
+        told = json.loads(data)
+        process, status = told["pid"], told.get("status")
+        if status is None:
+            end = self._ends[process] = asyncio.get_running_loop().create_future()
+            self._expected.popleft().set_result((process, end))
+        else:
+            self._ends.pop(process).set_result(status)
+
+    def _lose(self) -> None:
+        """It failed, or was ended by somebody: its nodes are sent SIGTERM by the kernel."""
+        self.ignore()
+        assert self._process.stderr is not None
+        said = self._process.stderr.read().decode(errors="replace").splitlines()
+        if said:
+            self._why = f"has failed: {said[-1]}"
+        for born in self._expected:
+            born.set_exception(self._gone())
+        for end in self._ends.values():
+            end.set_result(-signal.SIGTERM)
+        self._expected.clear()
+        self._ends.clear()
+
+    def _gone(self) -> RunFailed:
+        name = "the process that starts the nodes, fpt_ros.nodes.nurse,"
+        return RunFailed(f"{name} {self._why}")

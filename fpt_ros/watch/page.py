@@ -134,7 +134,7 @@ class Page:
             row(left, right, sizing_mode="stretch_width"),
             self._table,
             sizing_mode="stretch_width",
-            tags=[self._sent],
+            tags=[self._sent],  # part of the page, not drawn
         )
 
     def _button(self, label: str, service: str, look: Any) -> tuple[str, Button]:

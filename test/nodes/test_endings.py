@@ -74,7 +74,7 @@ def test_interrupt(tmp_path, options):
     process, children = under_way(tmp_path, *options)
     files = files_of(children)
     assert files
-    assert len(children) == 1 + (2 if "--composed" in options else 6)  # the first is the nursery
+    assert len(children) == 1 + (2 if "--composed" in options else 6)  # the first is the nurse
     asked = monotonic()
     process.send_signal(signal.SIGINT)
     stderr = ended(process)
@@ -140,7 +140,7 @@ def test_killed_command_takes_its_nodes_with_it(tmp_path):
     assert f"of {LONG * 1000} cycles" in run.info["reason"]
 
 
-def test_killed_nursery_takes_its_nodes_with_it_and_one_line_says_so(tmp_path):
+def test_killed_nurse_takes_its_nodes_with_it_and_one_line_says_so(tmp_path):
     process, children = under_way(tmp_path)
     assert [child.cmdline()[0] for child in children[1:]] == ["recorder", *reversed(STAGES)]
     assert [child.name() for child in children[1:]] == ["recorder", *reversed(STAGES)]
@@ -148,7 +148,7 @@ def test_killed_nursery_takes_its_nodes_with_it_and_one_line_says_so(tmp_path):
     stderr = ended(process)
     assert process.returncode == 1
     assert stderr.splitlines()[-1] == (
-        "fpt: the process that starts the nodes, fpt_ros.nodes.nursery, was ended"
+        "fpt: the process that starts the nodes, fpt_ros.nodes.nurse, was ended"
     )
     assert gone(children)
     assert read_run(tmp_path / "bag").info["complete"] == "false"

@@ -7,7 +7,8 @@ import sys
 import pytest
 
 from fpt_ros.errors import BadInput, RunFailed
-from fpt_ros.nodes.child import Nursery, end
+from fpt_ros.nodes.child import end
+from fpt_ros.nodes.nursery import Nursery
 
 LIVES = ("--ros-args", "-p", "joints:=[q]")
 """Arguments of a denoiser that waits for messages."""
@@ -64,5 +65,5 @@ def test_without_a_ros_one_line_says_what_is_needed(tmp_path, monkeypatch):
             Nursery()
     (tmp_path / "rclpy.py").write_text("raise ImportError('librcl.so: cannot open')")
     monkeypatch.setenv("PYTHONPATH", str(tmp_path))
-    with pytest.raises(RunFailed, match=r"nursery, has failed: ImportError: librcl.so: cannot op"):
+    with pytest.raises(RunFailed, match=r"nurse, has failed: ImportError: librcl.so: cannot op"):
         ended(tmp_path)
