@@ -5,7 +5,7 @@ from typing import Any, cast
 
 from fpt_ros.errors import BadInput
 from fpt_ros.laws import Vector
-from fpt_ros.messages.frames import Frame
+from fpt_ros.messages.frames import SECOND, Frame
 from fpt_ros.messages.topics import (
     COMMAND,
     DESIRED,
@@ -28,6 +28,10 @@ NUMBERS = {
 HUGE = 1e15
 """Numbers beyond it are not of a motion: their products leave the range of doubles."""
 
+LATEST = 2_114_380_800 * SECOND  # the end of 2036
+"""The last stamp [ns]: messages have 31 bits for its seconds, and what follows on one that is heard
+(a safe effort, while nothing else comes) is stamped later."""
+
 PLACES = {
     topic.name: [(2 + i, field in NUMBERS[topic.name]) for i, field in enumerate(topic.vectors)]
     for topic in LOOP_TOPICS
@@ -41,8 +45,10 @@ def check_content(who: str, topic: Topic, frame: Frame, gaps: bool = False) -> N
     The norm of a vector shows at once that all is well, as it mostly is. An effort may be as large
     as it likes: it is the plant's to say so. ``gaps``: samples may be lost, NaN stands for them.
     """
-    if frame[0] < 0:
-        raise BadInput(f"{who}: the stamp, {frame[0]} ns, is less than 0")
+    if not 0 <= frame[0] <= LATEST:
+        raise BadInput(
+            f"{who}: the stamp, {frame[0]} ns, is {'less than 0' if frame[0] < 0 else 'after 2036'}"
+        )
     names, whole = frame[1], cast(tuple[Any, ...], frame)
     for at, needed in PLACES[topic.name]:
         vector: Vector = whole[at]
