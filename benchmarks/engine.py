@@ -191,10 +191,20 @@ def pace_of_control(cycles: int) -> float:
     return cycles / (perf_counter() - started)
 
 
+def pace_of_python(cycles: int) -> float:
+    """Cycles a second of the engine without machine code."""
+    loop = load("tora").with_values("plant_simulator", duration=cycles * 0.001).loop()
+    engine = Engine(loop, compile_laws=False)
+    started = perf_counter()
+    engine.run()
+    return cycles / (perf_counter() - started)
+
+
 def in_python(cycles: int) -> dict[str, Callable[[], float]]:
-    """TORA without the engine; these are slow, so that fewer cycles do."""
+    """TORA without machine code; these are slow, so that fewer cycles do."""
     loop = NumpyTora()
     return {
+        "tora: engine, in Python": lambda: pace_of_python(4 * cycles),
         "tora: NumPy": lambda: pace_of(loop.step, cycles),
         "tora: solve_ivp a cycle": lambda: pace_of(loop.step_ivp, cycles // 4),
         "tora: python-control": lambda: pace_of_control(cycles),

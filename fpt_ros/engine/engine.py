@@ -1,12 +1,14 @@
 """The in-process engine: the control cycle over a whole run, compiled, without ROS."""
 
 from collections.abc import Callable, Sequence
+from functools import partial
 from typing import Any
 
 import numpy as np
 
 from fpt_ros.cycle import loop as cycle
 from fpt_ros.cycle.loop import CycleConstants, CycleMemory, CycleWork
+from fpt_ros.cycle.records import Buffer
 from fpt_ros.cycle.rows import CommandRow
 from fpt_ros.cycle.run import NO_CHANGES, Changes, Run
 from fpt_ros.cycle.stages import Loop
@@ -77,20 +79,30 @@ class Engine:
             loop.deformer.begin(loop.trajectory.controlled)
         self._states = [_view(stage.state) for stage in loop.stages()]
         self._command: list[Array] = list(np.full((2, len(plant.coordinates)), np.nan))
+        compiled_run = self._compiled(runs) if compile_laws else None
+        self._is_compiled = compiled_run is not None
+        self._run: Callable[..., int] = compiled_run or in_python(self._laws)
         self._lay_out()
-        self._run: Callable[..., int] = self._prepare(compile_laws, runs)
 
     def _lay_out(self) -> None:
         """All that the loop works on, by the parameters that are in force."""
         loop = self._loop
-        self._constants = _constants(loop)
-        self._memory = _memory(loop, self._states, self._command)
-        self._work = _work(loop)
+        self._constants, self._work = _constants(loop), _work(loop)
+        if self._is_compiled:
+            self._constants = as_arrays(self._constants, CycleConstants)
+            self._work = as_arrays(self._work, CycleWork)
+            self._memory = _memory(loop, self._states, self._command)
+        else:
+            command: list[Any] = list(self._command)
+            states = [stage.state for stage in loop.stages()]
+            self._memory = _memory(loop, states, [memoryview(each) for each in command])
         self._buffers = Buffers(loop, min(CHUNK, self.cycles))
         self._spare = Buffers(loop, CHUNK) if self.cycles >= LONG else self._buffers
 
-    def _prepare(self, compile_laws: bool, runs: int) -> Callable[..., int]:
-        laws = (
+    @property
+    def _laws(self) -> compiled.Laws:
+        """In the order of the loop's arguments."""
+        return (
             self._loop.denoiser.filter.update,
             self._loop.trajectory.trajectory.nominal,
             self._loop.trajectory.relaxation.prescribe,
@@ -101,16 +113,17 @@ class Engine:
             self._loop.deformer.compensator.compensate,
             *self._loop.plant.laws,
         )
-        if not compile_laws:
-            return in_python(laws)
+
+    def _compiled(self, runs: int) -> Callable[..., int] | None:
+        """The loop as machine code; of laws that cannot be compiled there is none, it says why."""
         much = self.cycles >= LONG or runs * self.cycles >= MANY
         try:
-            if much or compiled.is_specialised(cycle.run, laws):
-                return compiled.specialised_loop(cycle.run, laws)
-            return compiled.loop(cycle.run, laws)
+            if much or compiled.is_specialised(cycle.run, self._laws):
+                return compiled.specialised_loop(cycle.run, self._laws)
+            return compiled.loop(cycle.run, self._laws)
         except compiled.NotCompiled as error:
             notice(f"a law cannot be compiled, {error.why}; the run is in Python, {SLOWER}")
-            return in_python(laws)
+            return None
 
     @property
     def cycles(self) -> int:
@@ -190,7 +203,7 @@ class Engine:
     def _hand_over(self, first: int, end: int) -> None:
         self.done = end
         if end > first:
-            self._relay.give(self._buffers.series(first, end))
+            self._relay.give(partial(self._buffers.series, first, end))
             self._buffers, self._spare = self._spare, self._buffers
 
     def _remembered(self) -> list[Array]:
@@ -223,42 +236,33 @@ class Engine:
 
 
 def _constants(loop: Loop) -> CycleConstants:
-    """The constants of all stages as machine code takes them."""
+    """The constants of all stages."""
     plant, tuner, deformer = loop.plant, loop.tuner, loop.deformer
-    trajectory = loop.trajectory.place(plant.coordinates)
-    tuned = deformer.tuned_by(tuner.published if tuner.active else ())
-    constants: CycleConstants = as_arrays(
-        CycleConstants(
-            cycle_time=plant.cycle_time,
-            dt=plant.cycle_time / SECOND,
-            has_tuner=int(tuner.active),
-            plant=plant.constants,
-            denoiser=loop.denoiser.constants,
-            trajectory=trajectory,
-            tuner=tuner.constants if tuner.active else empty(TunerConstants),
-            deformer=tuned,
-        ),
-        CycleConstants,
+    return CycleConstants(
+        cycle_time=plant.cycle_time,
+        dt=plant.cycle_time / SECOND,
+        has_tuner=int(tuner.active),
+        plant=plant.constants,
+        denoiser=loop.denoiser.constants,
+        trajectory=loop.trajectory.place(plant.coordinates),
+        tuner=tuner.constants if tuner.active else empty(TunerConstants),
+        deformer=deformer.tuned_by(tuner.published if tuner.active else ()),
     )
-    return constants
 
 
-def _memory(loop: Loop, states: Sequence[Array], command: Sequence[Array]) -> CycleMemory:
+def _memory(loop: Loop, states: Sequence[Buffer], command: Sequence[Any]) -> CycleMemory:
     """The stages' memories on their own states."""
     records: Any = [
         stage.layout.on(state) if stage.layout is not None else empty(TunerMemory)
         for stage, state in zip(loop.stages(), states, strict=True)
     ]
-    vectors: Any = command
-    records.append(CommandRow(*vectors))
+    records.append(CommandRow(*command))
     return CycleMemory(*records)
 
 
 def _work(loop: Loop) -> CycleWork:
     tuner = loop.tuner.work if loop.tuner.active else empty(TunerWork)
-    work = CycleWork(loop.plant.work, loop.denoiser.work, tuner, loop.deformer.work)
-    arrays: CycleWork = as_arrays(work, CycleWork)
-    return arrays
+    return CycleWork(loop.plant.work, loop.denoiser.work, tuner, loop.deformer.work)
 
 
 def _view(state: Any) -> Array:

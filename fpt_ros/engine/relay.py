@@ -1,10 +1,9 @@
 """Giving chunks of a run to those who take them, beside the cycles that follow."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Sequence
 from concurrent.futures import Future, ThreadPoolExecutor
 
-from fpt_ros.runs.chunks import Consumer
-from fpt_ros.runs.run import Series
+from fpt_ros.runs.chunks import Chunk, Consumer
 
 
 class Relay:
@@ -19,13 +18,13 @@ class Relay:
         self._pool = ThreadPoolExecutor(1, "consumers") if beside and consumers else None
         self._last: Future[None] | None = None
 
-    def give(self, chunk: Mapping[str, Series]) -> None:
-        """Give a chunk; what a consumer raised for the one before is raised here."""
+    def give(self, make: Callable[[], Chunk]) -> None:
+        """Give a chunk, made where it is taken; what the one before raised is raised here."""
         self.wait()
-        if self._pool is None:
-            self._take(chunk)
-        else:
-            self._last = self._pool.submit(self._take, chunk)
+        if self._pool is not None:
+            self._last = self._pool.submit(self._take, make)
+        elif self._consumers:
+            self._take(make)
 
     def wait(self) -> None:
         """Until all that was given has been taken."""
@@ -33,6 +32,7 @@ class Relay:
         if last is not None:
             last.result()
 
-    def _take(self, chunk: Mapping[str, Series]) -> None:
+    def _take(self, make: Callable[[], Chunk]) -> None:
+        chunk = make()
         for consumer in self._consumers:
             consumer.take(chunk)
