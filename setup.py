@@ -266,7 +266,6 @@ setup(
             "weights = fpt_ros.tuning.weights:TUNED_WEIGHTS",
         ],
         "fpt_ros.filters": [
-            "adaptive_kalman = fpt_ros.denoising.streaming.adaptive_kalman:ADAPTIVE_KALMAN",
             "adaptive_savgol = fpt_ros.denoising.streaming.adaptive_savgol:ADAPTIVE_SAVGOL",
             "alpha_beta_gamma = fpt_ros.denoising.streaming.alpha_beta_gamma:ALPHA_BETA_GAMMA",
             "butterworth = fpt_ros.denoising.streaming.butterworth:BUTTERWORTH",

@@ -124,7 +124,7 @@ CASES: dict[str, tuple[str, dict[str, Value], Callable[[Array], Array], float]] 
         lambda q: naive_savgol(q, 141, 3),
         1e-9,
     ),
-    "kalman_bank of four": ("kalman_bank", {}, lambda q: naive_kalman(q, *BANK), 0.2),
+    "kalman_bank of four": ("kalman_bank", {"sigma": SIGMA}, lambda q: naive_kalman(q, *BANK), 0.2),
     "wavelet, window 256": (
         "wavelet",
         {"window": 256},

@@ -110,7 +110,7 @@ def denoise(
 
     Example: fpt denoise robot.mcap --topic /joint_states --field effort --joint elbow
 
-    Example: fpt denoise encoder.csv --streaming adaptive_kalman --derivative 1
+    Example: fpt denoise encoder.csv --streaming kalman_bank --derivative 1
 
     Example: fpt denoise encoder.csv --streaming all --compare
 

@@ -266,6 +266,8 @@ class Denoiser(Stage):
         told: dict[str, object] = {}
         for c, name in enumerate(self._measured.names):
             found = self.filter.deviation(self.constants.filter, self.memory.filter, c)
+            if found is None:
+                return {}
             for what, value in zip(("position", "velocity", "response"), found, strict=True):
                 told[f"deviation of {what} {name}"] = f"{value:.3g}"
         return told

@@ -199,8 +199,17 @@ class Stage(ABC):
         """Work out the constants of the laws from ``values``."""
 
     def _remember(self, layout: Layout[Memory]) -> tuple[Memory, bool]:
-        """The memory of this layout on the state, and whether it is new, all zeros."""
+        """The memory of this layout on the state, and whether it is new, all zeros.
+
+        Raises:
+            BadInput: a change in flight asks for a memory of another size.
+        """
         fresh = not len(self.state)
+        if self.layout is not None and layout.size != len(self.state):
+            raise BadInput(
+                f"{self.name}: with these parameters it would remember {layout.size} numbers "
+                f"instead of {len(self.state)}: that cannot change while the loop runs"
+            )
         self.layout = layout
         if fresh and isinstance(self.state, array):
             self.state.frombytes(bytes(8 * layout.size))

@@ -152,9 +152,9 @@ def encoder(path):
 def test_a_filter_of_the_loop_over_a_record(tmp_path):
     t = encoder(tmp_path / "q.csv")
     out = tmp_path / "out.csv"
-    words = ("--streaming", "adaptive_kalman", "--derivative", "1", "--out", out)
+    words = ("--streaming", "kalman_bank", "--derivative", "1", "--out", out)
     found = fpt_json("denoise", tmp_path / "q.csv", *words)
-    assert found["method"] == "adaptive_kalman"
+    assert found["method"] == "kalman_bank"
     assert found["info"]["delay"] == "0 s"
     table = np.genfromtxt(out, delimiter=",", skip_header=1)
     late = t > 0.5
@@ -167,7 +167,7 @@ def test_filters_are_ranked_with_their_delay(tmp_path):
     rows = fpt_json("denoise", tmp_path / "q.csv", *words)["filters"]
     score = {row["method"]: row["score"] for row in rows}
     assert list(score.values()) == sorted(score.values())
-    assert score["adaptive_kalman"] < score["kalman_bank"] < score["butterworth"]
+    assert score["kalman_bank"] < score["savgol"] < score["butterworth"]
     delay = {row["method"]: row["delay"] for row in rows}
     assert delay["butterworth"] == pytest.approx(np.sqrt(2) / (2 * np.pi * 20.0), abs=2e-3)
 

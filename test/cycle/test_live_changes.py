@@ -78,6 +78,18 @@ def test_what_may_not_change_in_flight_is_refused_with_what_may():
         stages().denoiser.configure({"method": "wavelet"})
 
 
+def test_a_memory_of_another_size_is_refused_in_flight():
+    loop = experiment.load("tora").with_values("denoiser", method="kalman_bank").loop()
+    denoiser = loop.denoiser
+    denoiser.begin(loop.plant.measure(0, 0))
+    before, state = dict(denoiser.values), list(denoiser.state)
+    with pytest.raises(BadInput, match=r"denoiser: .* remember 79 numbers instead of 465: that"):
+        denoiser.configure({"sigma": 1e-3})
+    assert denoiser.values == before
+    assert list(denoiser.state) == state
+    denoiser.configure({"gate": 6.0})
+
+
 def test_a_bad_live_list_is_refused():
     trajectory = stages().trajectory
     with pytest.raises(BadInput, match=r"amplitude: 1 given, 2 needed \(q3, q2\)"):

@@ -37,7 +37,7 @@ class Filter:
             dt [s] after the last one.
         parameters: its own, beside ``order``.
         deviation: ``deviation(constants, state, c)`` -> standard deviations of position, velocity
-            and response of coordinate c as they are now; None: the filter does not know.
+            and response of coordinate c as they are now; None: it does not know.
     """
 
     prepare: Callable[[Values, int, float], tuple[float, ...]]
@@ -45,7 +45,7 @@ class Filter:
     start: Callable[[Vector, MutableVector, Vector, Vector], None]
     update: Update
     parameters: tuple[Parameter, ...] = ()
-    deviation: Callable[[Vector, Vector, int], tuple[float, float, float]] | None = None
+    deviation: Callable[[Vector, Vector, int], tuple[float, float, float] | None] | None = None
 
 
 FILTERS: Kind[Filter] = Kind(Filter, "filters")

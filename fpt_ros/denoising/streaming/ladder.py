@@ -1,4 +1,4 @@
-"""The ladder of :mod:`~fpt_ros.denoising.streaming.adaptive_kalman`: its filters and its memory."""
+"""The ladder of Kalman filters of a bank that is given none: its filters and its memory."""
 
 import math
 
@@ -6,17 +6,19 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fpt_ros.denoising.streaming import ORDER
-from fpt_ros.denoising.streaming.kalman_bank import steady_gains
+from fpt_ros.denoising.streaming.steady_filter import steady_gains
 from fpt_ros.errors import BadInput
 from fpt_ros.laws import MutableVector, Vector, helper
 from fpt_ros.parameters import Parameter, Values, integer, number
 
 PARAMETERS = (
     Parameter("members", "filters of the ladder", 18, minimum=2, maximum=40, live=False),
-    Parameter("slowest", "bandwidth of the slowest filter", 3e-3, unit="rad/sample", above=0.0),
-    Parameter("fastest", "bandwidth of the fastest filter", 3.0, unit="rad/sample", above=0.0),
-    Parameter("gate", "standard deviations beyond which it may be an impulse", 5.0, above=2.0),
+    Parameter("slowest", "bandwidth of its slowest filter", 3e-3, unit="rad/sample", above=0.0),
+    Parameter("fastest", "bandwidth of its fastest filter", 3.0, unit="rad/sample", above=0.0),
 )
+
+GATE = 5.0
+"""Where none is given."""
 
 STATES = 4
 FORGOTTEN, MOST_FORGOTTEN = 0.2, 0.5
@@ -60,7 +62,7 @@ def prepare(values: Values, n: int, dt: float) -> tuple[float, ...]:
     gains = [steady_gains(STATES, h ** (2 * STATES), 1.0, 1.0) for h in ladder]
     price = [-math.log1p(-float(g[0])) for g in gains]
     order = float(integer(values, ORDER.name))
-    constants = [float(len(ladder)), number(values, "gate"), order, 1.0 / dt]
+    constants = [float(len(ladder)), number(values, "gate") or GATE, order, 1.0 / dt]
     for h, g, own, faster in zip(ladder, gains, price, [*price[1:], price[-1]], strict=True):
         rest = 1.0 - float(g[0])
         level = 1.0 / (0.6745 * math.sqrt(innovation_gain(g)))

@@ -1,4 +1,4 @@
-"""How certain :mod:`~fpt_ros.denoising.streaming.adaptive_kalman` is of what it estimates."""
+"""How certain the ladder of Kalman filters is of what it estimates."""
 
 import math
 from functools import lru_cache
@@ -6,7 +6,6 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
-from fpt_ros.denoising.streaming.kalman_bank import steady_prediction
 from fpt_ros.denoising.streaming.ladder import (
     BANDWIDTH,
     BEST,
@@ -19,6 +18,7 @@ from fpt_ros.denoising.streaming.ladder import (
     STATES,
     weight_of,
 )
+from fpt_ros.denoising.streaming.steady_filter import steady_prediction
 from fpt_ros.laws import Vector
 
 LONGEST_GAP = 1000

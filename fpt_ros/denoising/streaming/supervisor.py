@@ -4,7 +4,7 @@ import math
 
 from fpt_ros.denoising.mamdani import SIZE, infer
 from fpt_ros.denoising.offline.noise import MAD
-from fpt_ros.denoising.streaming.kalman_bank import RECOVERED
+from fpt_ros.denoising.streaming.given_filters import RECOVERED
 from fpt_ros.laws import MutableVector, Vector, clipped, helper
 
 # places among the constants: shared ones and two rule bases, then by window these and four kernels

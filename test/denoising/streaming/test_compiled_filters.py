@@ -16,11 +16,11 @@ from fpt_ros.engine import compiled
 PEERS = ("alpha_beta_gamma", "butterworth", "high_gain", "levant", "one_euro")
 
 LAWS = {
-    "adaptive_kalman": (FILTERS["adaptive_kalman"], {}),
+    "kalman_bank": (KALMAN_BANK, {}),
     "fuzzy": (FILTERS["fuzzy"], {"windows": [7.0, 41.0], "noise_window": 31}),
     "savgol": (SAVGOL, {"window": 41, "degree": 3}),
     "adaptive_savgol": (ADAPTIVE_SAVGOL, {"windows": [21.0, 41.0, 71.0], "degrees": [2, 3, 5]}),
-    "kalman_bank": (KALMAN_BANK, {"settling": 0.1}),
+    "kalman_bank, given": (KALMAN_BANK, {"sigma": 1e-3, "settling": 0.1}),
     "wavelet": (WAVELET, {"window": 64, "level": 2, "fit": 31}),
     **{name: (FILTERS[name], {}) for name in PEERS},
 }

@@ -175,7 +175,7 @@ def test_where_it_wins_and_where_it_loses():
     hit = steady.copy()
     hit[np.random.default_rng(5).random(6000) < 0.02] += 0.1
     fixed = FILTERS["savgol"]
-    adaptive = FILTERS["adaptive_kalman"]
+    adaptive = FILTERS["kalman_bank"]
     # against one fixed window, at three levels of noise; and in impulses
     for sigma, ratio in ((1e-5, 0.25), (1e-3, 1.3), (1e-2, 0.75)):
         q = clean[0] + noise(6000, 6, sigma)

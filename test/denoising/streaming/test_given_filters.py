@@ -1,4 +1,4 @@
-"""Bank of steady-state Kalman filters, against textbook filters with matrices."""
+"""A bank of given Kalman filters, against textbook filters with matrices."""
 
 import math
 
@@ -7,7 +7,8 @@ import pytest
 from filter_runs import DT, bang_bang, constants_of, noise, rms, run, two_sines
 
 from fpt_ros.denoising.streaming import Update
-from fpt_ros.denoising.streaming.kalman_bank import KALMAN_BANK, steady_gains
+from fpt_ros.denoising.streaming.kalman_bank import KALMAN_BANK
+from fpt_ros.denoising.streaming.steady_filter import steady_gains
 from fpt_ros.engine import compiled
 from fpt_ros.errors import BadInput
 
@@ -23,6 +24,10 @@ One of the 18 is misprinted there: the third of the five states is given as 7.86
 recursion in 50 decimals ends at 7.867309452e-5, and so does that of
 test_gains_are_the_limit_of_the_recursion.
 """
+
+
+def run_given(q, sigma=1e-3, **given):
+    return run(KALMAN_BANK, q, sigma=sigma, **given)
 
 
 def wiener(states, density, dt):
@@ -95,7 +100,7 @@ def test_gains_of_two_states_have_a_closed_form():
 @pytest.mark.parametrize(("states", "density"), PRINTED)
 def test_one_member_is_the_matrix_filter(states, density):
     q = two_sines(1500)[0] + noise(1500)
-    found = run(KALMAN_BANK, q, states=[float(states)], densities=[density], gate=1e9)
+    found = run_given(q, states=[float(states)], densities=[density], gate=1e9)
     expected = matrix_filter(q, states, density)
     size = np.nanmax(np.abs(expected), axis=0)
     assert np.nanmax(np.abs(found[:, :, 0] - expected) / size) < 5e-5  # six printed digits
@@ -106,7 +111,7 @@ def test_the_mixture_is_better_than_any_member_when_the_motion_is_of_two_kinds()
     motions = [(signal(4000), noise(4000, seed=3)) for signal in (two_sines, bang_bang)]
 
     def errors(**given):
-        out = [run(KALMAN_BANK, clean[0] + e, **given)[:, :, 0] for clean, e in motions]
+        out = [run_given(clean[0] + e, **given)[:, :, 0] for clean, e in motions]
         return [
             rms([x[1000:, i] - clean[i][1000:] for x, (clean, _) in zip(out, motions, strict=True)])
             for i in (1, 2)
@@ -121,8 +126,8 @@ def test_the_mixture_is_better_than_any_member_when_the_motion_is_of_two_kinds()
 
 def test_the_mixture_stays_between_its_members():
     q = two_sines(600)[0] + noise(600)
-    members = [run(KALMAN_BANK, q, states=[float(s)], densities=[d])[1:, 2, 0] for s, d in PRINTED]
-    bank = run(KALMAN_BANK, q)[1:, 2, 0]
+    members = [run_given(q, states=[float(s)], densities=[d])[1:, 2, 0] for s, d in PRINTED]
+    bank = run_given(q)[1:, 2, 0]
     slack = 1e-9 * np.max(np.abs(bank))
     assert np.all(bank <= np.max(members, axis=0) + slack)
     assert np.all(bank >= np.min(members, axis=0) - slack)
@@ -136,7 +141,7 @@ def test_figures_of_section_3(signal, velocity, response):
     clean = signal(10_000)
     q = np.column_stack([clean[0] + noise(10_000, seed) for seed in range(10)])
     machine = compiled.law(KALMAN_BANK.update, Update)
-    out = run(KALMAN_BANK, q, vector=np.array, update=machine)[1000:]
+    out = run_given(q, vector=np.array, update=machine)[1000:]
     error = [np.mean([rms(out[:, i, s] - clean[i][1000:]) for s in range(10)]) for i in (1, 2)]
     assert error[0] <= velocity
     assert error[1] <= response
@@ -145,12 +150,12 @@ def test_figures_of_section_3(signal, velocity, response):
 def test_impulses_are_rejected():
     clean = two_sines(4000)
     q = clean[0] + noise(4000, seed=1)
-    plain = run(KALMAN_BANK, q)[1000:, :, 0]
+    plain = run_given(q)[1000:, :, 0]
     hit = q.copy()
     at = np.random.default_rng(5).choice(np.arange(900, 4000), 60, replace=False)
     hit[at] += np.where(np.arange(60) % 2, 1.0, -1.0)
-    gated = run(KALMAN_BANK, hit)[1000:, :, 0]
-    open_gate = run(KALMAN_BANK, hit, gate=1e9)[1000:, :, 0]
+    gated = run_given(hit)[1000:, :, 0]
+    open_gate = run_given(hit, gate=1e9)[1000:, :, 0]
     error = [rms(x[:, 2] - clean[2][1000:]) for x in (plain, gated, open_gate)]
     assert error[1] < 1.3 * error[0]
     assert error[2] > 30 * error[0]
@@ -161,7 +166,7 @@ def test_the_gate_recovers_after_a_step(jump):
     clean = two_sines(5000)
     q = clean[0] + noise(5000, seed=2)
     q[2000:] += jump
-    out = run(KALMAN_BANK, q)[:, :, 0]
+    out = run_given(q)[:, :, 0]
     before = abs(out[2003, 0] - clean[0][2003])
     assert before < 0.01, "the first four samples after the step pass for impulses"
     after = slice(4000, 5000)
@@ -174,21 +179,29 @@ def test_missing_samples_are_predicted():
     q = clean[0] + noise(3000, seed=4)
     q[2000:2010] = [math.nan, math.inf] * 5
     q[500] = math.inf
-    out = run(KALMAN_BANK, q)[:, :, 0]
+    out = run_given(q)[:, :, 0]
     assert np.all(np.isfinite(out[1:]))
     assert np.max(np.abs(out[2000:2010, 0] - clean[0][2000:2010])) < 3e-3
 
 
 def test_coordinates_do_not_know_each_other():
     a, b = two_sines(300)[0] + noise(300), 1e3 + 5.0 * noise(300, seed=9)
-    both = run(KALMAN_BANK, np.column_stack([a, b]))
-    assert np.array_equal(both[:, :, 0], run(KALMAN_BANK, a)[:, :, 0], equal_nan=True)
-    assert np.array_equal(both[:, :, 1], run(KALMAN_BANK, b)[:, :, 0], equal_nan=True)
+    both = run_given(np.column_stack([a, b]))
+    assert np.array_equal(both[:, :, 0], run_given(a)[:, :, 0], equal_nan=True)
+    assert np.array_equal(both[:, :, 1], run_given(b)[:, :, 0], equal_nan=True)
+
+
+def test_what_is_not_given_beside_what_is_has_its_default():
+    q = two_sines(200)[0] + noise(200)
+    states, densities = zip(*PRINTED, strict=True)
+    expected = run_given(q)
+    for given in ({"states": list(map(float, states))}, {"densities": list(densities)}):
+        assert np.array_equal(run_given(q, sigma=0.0, **given), expected, equal_nan=True)
 
 
 @pytest.mark.parametrize("order", [0, 1])
 def test_response_of_plants_of_lower_order(order):
-    out = run(KALMAN_BANK, two_sines(200)[0], order=order)
+    out = run_given(two_sines(200)[0], order=order)
     assert np.array_equal(out[1:, 2], out[1:, order])
 
 
@@ -196,11 +209,12 @@ def test_response_of_plants_of_lower_order(order):
     ("given", "reason"),
     [
         ({"states": [3.0]}, "each filter of the bank takes one of both"),
-        ({"states": [], "densities": []}, "each filter of the bank takes one of both"),
+        ({"densities": [1.0]}, "each filter of the bank takes one of both"),
         ({"states": [2.0], "densities": [1.0]}, "an integer from 3 to 6"),
         ({"states": [3.5], "densities": [1.0]}, "an integer from 3 to 6"),
         ({"states": [7.0], "densities": [1.0]}, "an integer from 3 to 6"),
-        ({"sigma": 0.0}, "sigma"),
+        ({"sigma": -1.0}, "sigma"),
+        ({"gate": 1.0}, "gate = 1 is not valid: it is 0, or more than 2"),
         ({"densities": [0.0, 1.0, 1.0, 1.0]}, "densities"),
     ],
 )

@@ -31,7 +31,6 @@ Before the first sample the motion is taken to be at rest.
 
 import math
 
-from fpt_ros.denoising.streaming import Filter
 from fpt_ros.denoising.streaming.ladder import (
     AGAINST,
     BEFORE,
@@ -46,7 +45,6 @@ from fpt_ros.denoising.streaming.ladder import (
     LEVEL,
     LSB,
     MEMBER,
-    PARAMETERS,
     PEAK,
     PRICE,
     REST,
@@ -54,12 +52,8 @@ from fpt_ros.denoising.streaming.ladder import (
     SIGMA,
     SPEED,
     UNEVEN,
-    prepare,
-    start,
-    state_size,
     weight_of,
 )
-from fpt_ros.denoising.streaming.ladder_deviation import deviation
 from fpt_ros.denoising.streaming.three_states import response_of
 from fpt_ros.laws import MutableVector, Vector, helper
 
@@ -248,6 +242,3 @@ def update(
         out_v[c] = velocity / total * rate
         acceleration = 2.0 * bend / total * rate * rate
         out_response[c] = response_of(constants[2], out_q[c], out_v[c], acceleration)
-
-
-ADAPTIVE_KALMAN = Filter(prepare, state_size, start, update, PARAMETERS, deviation)

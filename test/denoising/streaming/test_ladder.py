@@ -1,4 +1,4 @@
-"""The ladder of Kalman filters: near the best single one without being told noise or bandwidth."""
+"""The bank at its defaults: near the best single filter without being told noise or bandwidth."""
 
 import itertools
 import math
@@ -8,10 +8,11 @@ import pytest
 from filter_runs import bang_bang, constants_of, noise, rms, run, two_sines
 
 from fpt_ros.denoising.streaming import Update
-from fpt_ros.denoising.streaming.adaptive_kalman import ADAPTIVE_KALMAN, MOST_UNEVEN
-from fpt_ros.denoising.streaming.kalman_bank import KALMAN_BANK, steady_gains
+from fpt_ros.denoising.streaming.kalman_bank import KALMAN_BANK
 from fpt_ros.denoising.streaming.ladder import LSB as LSB_PLACE
 from fpt_ros.denoising.streaming.ladder import SIGMA, UNEVEN, innovation_gain, weight_of
+from fpt_ros.denoising.streaming.ladder_update import MOST_UNEVEN
+from fpt_ros.denoising.streaming.steady_filter import steady_gains
 from fpt_ros.engine import compiled
 from fpt_ros.errors import BadInput
 
@@ -26,10 +27,10 @@ def filtered(law, q, dt=1e-3, **given):
 
 def ended(q, dt=1e-3):
     """Constants and memory after the record."""
-    constants = np.array(constants_of(ADAPTIVE_KALMAN, 1, dt))
-    state = np.zeros(ADAPTIVE_KALMAN.state_size(constants, 1))
-    ADAPTIVE_KALMAN.start(constants, state, q[:1], [math.nan])
-    machine = compiled.law(ADAPTIVE_KALMAN.update, Update)
+    constants = np.array(constants_of(KALMAN_BANK, 1, dt))
+    state = np.zeros(KALMAN_BANK.state_size(constants, 1))
+    KALMAN_BANK.start(constants, state, q[:1], [math.nan])
+    machine = compiled.law(KALMAN_BANK.update, Update)
     out = np.zeros((3, 1))
     for each in q[1:]:
         machine(constants, state, dt, np.array([each]), np.array([math.nan]), *out)
@@ -60,7 +61,7 @@ def ratios(rate, sigma, motion):
         )
         for h in np.geomspace(5e-3, 3.6, 12)
     ]
-    return errors(ADAPTIVE_KALMAN) / np.min(single, axis=0)
+    return errors(KALMAN_BANK) / np.min(single, axis=0)
 
 
 def test_it_is_near_the_best_single_filter_at_its_defaults():
@@ -82,8 +83,8 @@ def test_a_motion_that_sets_in_is_no_impulse():
     dt = 0.01
     once = two_sines(100, dt)[0]
     q = np.concatenate((once, np.full(200, once[-1]), once[::-1])) + noise(400, 1, 1e-6)
-    gated = filtered(ADAPTIVE_KALMAN, q, dt)
-    np.testing.assert_array_equal(gated[1:], filtered(ADAPTIVE_KALMAN, q, dt, gate=1e9)[1:])
+    gated = filtered(KALMAN_BANK, q, dt)
+    np.testing.assert_array_equal(gated[1:], filtered(KALMAN_BANK, q, dt, gate=1e9)[1:])
 
 
 def test_innovation_in_white_noise():
@@ -115,7 +116,7 @@ def test_impulses_are_kept_back():
     at = np.random.default_rng(5).choice(np.arange(900, 4000), 60, replace=False)
     hit[at] += np.where(np.arange(60) % 2, 1.0, -1.0)
     error = [
-        rms(filtered(ADAPTIVE_KALMAN, each, gate=gate)[1000:, 2] - clean[2][1000:])
+        rms(filtered(KALMAN_BANK, each, gate=gate)[1000:, 2] - clean[2][1000:])
         for each, gate in ((q, 5.0), (hit, 5.0), (hit, 1e9))
     ]
     assert error[1] < 1.2 * error[0]
@@ -127,7 +128,7 @@ def test_it_finds_the_motion_again_after_a_step(jump):
     clean = two_sines(4000)
     q = clean[0] + noise(4000, seed=2)
     q[2000:] += jump
-    out = filtered(ADAPTIVE_KALMAN, q)
+    out = filtered(KALMAN_BANK, q)
     after = slice(3000, None)
     assert rms(out[after, 0] - clean[0][after] - jump) < 1e-3
     assert rms(out[after, 2] - clean[2][after]) < 3.0
@@ -140,10 +141,10 @@ def test_missing_samples_are_bridged_with_growing_doubt():
     for gap in (0, 5, 20, 60):
         lost = np.append(q[:2000], np.full(gap, math.nan))
         constants, state = ended(lost)
-        doubts.append(ADAPTIVE_KALMAN.deviation(constants, state, 0))
+        doubts.append(KALMAN_BANK.deviation(constants, state, 0))
     assert np.all(np.diff(doubts, axis=0) > 0.0)
     q[2000:2060] = [math.nan, math.inf] * 30
-    out = filtered(ADAPTIVE_KALMAN, q)
+    out = filtered(KALMAN_BANK, q)
     assert np.all(np.isfinite(out[1:]))
     assert abs(out[2059, 0] - clean[0][2059]) < 3.0 * doubts[-1][0]
 
@@ -153,16 +154,16 @@ def test_deviations_are_as_great_as_the_errors():
     inside = []
     for seed in range(8):
         constants, state = ended(clean[0][:2000] + noise(2000, seed))
-        deviations = ADAPTIVE_KALMAN.deviation(constants, state, 0)
-        out = filtered(ADAPTIVE_KALMAN, clean[0][:2000] + noise(2000, seed))[-1]
+        deviations = KALMAN_BANK.deviation(constants, state, 0)
+        out = filtered(KALMAN_BANK, clean[0][:2000] + noise(2000, seed))[-1]
         inside += [abs(out[i] - clean[i][1999]) < 3.0 * deviations[i] for i in range(3)]
     assert np.mean(inside) > 0.8
 
 
 def test_scale_and_sign_change_nothing_else():
     q = two_sines(1500)[0] + noise(1500, 5)
-    expected = filtered(ADAPTIVE_KALMAN, q)
-    assert np.array_equal(filtered(ADAPTIVE_KALMAN, -1024.0 * q)[1:], -1024.0 * expected[1:])
+    expected = filtered(KALMAN_BANK, q)
+    assert np.array_equal(filtered(KALMAN_BANK, -1024.0 * q)[1:], -1024.0 * expected[1:])
 
 
 def test_weights_are_nearly_exponential():
@@ -177,4 +178,4 @@ def test_weights_are_nearly_exponential():
 )
 def test_ladders_that_cannot_be(given, reason):
     with pytest.raises(BadInput, match=reason):
-        constants_of(ADAPTIVE_KALMAN, **given)
+        constants_of(KALMAN_BANK, **given)
