@@ -21,10 +21,11 @@ import numpy as np
 from scipy.ndimage import binary_dilation, binary_opening, gaussian_filter1d, median_filter
 
 from fpt_ros.denoising.offline import Mask, Signal
-from fpt_ros.denoising.offline.library import TONES, Judge, Member
+from fpt_ros.denoising.offline.library import ON_CURVE, SWEEPS, TONES, Judge, Member
 from fpt_ros.denoising.offline.mixture import MOST_SHARE
 from fpt_ros.denoising.offline.process_member import LOUDEST
 from fpt_ros.denoising.offline.spectral_floor import flatness, level
+from fpt_ros.denoising.offline.whiteness import FLAT, is_white
 
 LIKELY = 0.86
 """Probability above which a sample of a run is an impulse."""
@@ -47,8 +48,6 @@ LIVELY = 0.25
 the signal."""
 WHITE = 0.85
 """Least level of what tones leave, in units of its standard deviation, that is white."""
-FLAT = 0.475
-"""Least flatness of a residual that is noise: that of white noise is 0.58 +- 0.02."""
 SHORT = 128
 NOISY = 0.4
 """Share of the variance above which the noise of a short record is doubted."""
@@ -108,9 +107,11 @@ def _taken(y: Signal, present: Mask, judge: Judge, estimate: Signal) -> float:
 
 def leaves_noise(y: Signal, present: Mask, judge: Judge, member: Member) -> bool:
     """Whether the residual is small or, without impulses and at one level, white in each frame."""
+    residual = y - member.estimate
+    if member.name in (SWEEPS, ON_CURVE) and not is_white(residual / judge.noise.sigma, present):
+        return False
     if _taken(y, present, judge, member.estimate) < LOUDEST:
         return True
-    residual = y - member.estimate
     noise = judge.noise.inlier(residual, present) * residual / judge.noise.sigma
     if member.name == TONES and level(noise, present) < WHITE * float(np.std(noise[present])):
         return False

@@ -6,7 +6,8 @@ found (:mod:`noise_found`):
 * general smoothers: splines and oscillators whose stiffness and frequency vary along the signal
   (:mod:`roughness`), of several orders and widths; wavelets (:mod:`ebayes`);
 * special ones: piecewise constant (:mod:`potts`, :mod:`steps`), sums of sinusoids
-  (:mod:`sinusoids`), Gaussian processes (:mod:`process_member`), and the record as it is.
+  (:mod:`sinusoids`) and of sweeps (:mod:`sweeps`), Gaussian processes (:mod:`process_member`),
+  and the record as it is.
 
 Under one mixture for all, the medians of theirs, each has the score::
 
@@ -30,7 +31,7 @@ oscillations so fast that Hampel flattens them.
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 
 import numpy as np
@@ -44,9 +45,12 @@ from fpt_ros.denoising.offline import (
     roughness,
     sinusoids,
     steps,
+    sweeps,
 )
+from fpt_ros.denoising.offline.whiteness import is_white
 
-UNCHANGED, PROCESS, STEPS, POTTS, TONES = "unchanged", "process", "steps", "potts", "sinusoids"
+UNCHANGED, PROCESS, STEPS, POTTS = "unchanged", "process", "steps", "potts"
+TONES, SWEEPS, ON_CURVE = "sinusoids", "sweeps", "sweeps on a curve"
 PRICE = 3.0
 """Of a degree of freedom, in units of -2 log likelihood."""
 WIDE, SHARP = 8.0, 2.0
@@ -78,6 +82,9 @@ FROM_RECORD: tuple[Shape, ...] = ((0, 10.0, 10.0),)
 WAVELETS = ("haar", "sym8")
 """For many jumps, and for what no other describes."""
 
+QUIETER = 0.8
+"""Share of the noise that was found, below which what sweeps leave is the noise: they had hidden
+how low it is."""
 STEP_DF = 3.0
 """Least degrees of freedom per segment of ``steps``: those of its derivative vanish where the noise
 is finer than its grid of levels."""
@@ -197,6 +204,9 @@ def fit_all(
             for z in (begin.z, named["spline"].z)
         ]
         fits += tones
+    swept: dict[str, mixture.Fit] = {}
+    if choice is None or choice.special & {SWEEPS, ON_CURVE}:
+        swept = _swept(y, present, begin)
     noises = [(f.noise.p, f.noise.s, f.noise.t, f.noise.m) for f in fits]
     p, s, t, m = (float(x) for x in np.median(noises, axis=0))
     judge = Judge(y, present, mixture.Noise(p, s, t, m, begin.profile))
@@ -206,4 +216,33 @@ def fit_all(
         special += [_member(POTTS, constant), Member(STEPS, mean, max(df, STEP_DF * (jumps + 1)))]
     if tones:
         special.append(min((_member(TONES, fit) for fit in tones), key=judge.score))
-    return judge, [_member(name, fit) for name, fit in named.items()], special
+    general = [_member(name, fit) for name, fit in named.items()]
+    special += [_member(name, fit) for name, fit in swept.items()]
+    if swept:
+        judge = _quieter(judge, [*general, *special], *swept.popitem())
+    return judge, general, special
+
+
+def _swept(y: Signal, present: Mask, begin: mixture.Start) -> dict[str, mixture.Fit]:
+    """Sweeps and, where they leave more than noise, sweeps on a curve; empty: there are none."""
+    found: dict[str, mixture.Fit] = {}
+    core = sweeps.Sweeps()
+    for name in (SWEEPS, ON_CURVE):
+        fit = mixture.fit(y, present, core.smooth, begin, y)
+        if not len(core.phases):
+            break
+        own = begin.level(fit.z - fit.estimate, present)
+        if own < QUIETER * begin.sigma:
+            fit = mixture.fit(y, present, core.smooth, replace(begin, sigma=own), fit.z)
+        found[name] = fit
+        if is_white((y - fit.estimate) / fit.noise.sigma, present):
+            break
+        core = core.on_a_curve()
+    return found
+
+
+def _quieter(judge: Judge, members: Sequence[Member], name: str, fit: mixture.Fit) -> Judge:
+    """The judge of sweeps that had hidden how low the noise is, where they are the best by that."""
+    other = replace(judge, noise=fit.noise)
+    believed = fit.noise.s < QUIETER * judge.noise.s
+    return other if believed and min(members, key=other.score).name == name else judge
