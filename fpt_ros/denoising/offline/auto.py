@@ -197,6 +197,13 @@ def believed(
         The mean, shape (n,), its degrees of freedom, the weights of the last and the first mean.
     """
     doubt = library.DOUBT if varies else 1.0
+    if coarse > 0.0:
+        special = [
+            member
+            for member in special
+            if member.name not in (library.STEPS, library.POTTS)
+            or not doubts.stairs_of_rounding(member.estimate, coarse)
+        ]
     last = [judge.mean("general", general, doubt * library.WIDE), *special]
     weight = judge.weights(last, doubt * library.SHARP)
     while (favourite := last[int(np.argmax(weight))]).name != library.UNCHANGED:

@@ -11,6 +11,8 @@ Where little is taken away nothing is asked.
 A sample that is rounded, and has no other noise, is within a step of the signal, or an impulse:
 that sticks out of a calm neighbourhood. What a model misses else is a jump, or fast oscillation.
 
+Stairs whose steps are those of rounding are of a smooth signal that was rounded.
+
 In a short record noise that would be nearly half of the variance cannot be told from a signal as
 rough: whatever is taken away may be the signal.
 """
@@ -95,6 +97,16 @@ def no_rounding(y: Signal, estimate: Signal, step: float) -> Mask:
     moves = np.abs(np.diff(estimate, append=estimate[-1]))
     calm = median_filter(moves, 2 * REACH + 1, mode="nearest") < LIVELY * np.abs(residual)
     return np.asarray(far & ~(left & right & calm))
+
+
+def stairs_of_rounding(estimate: Signal, step: float) -> bool:
+    """Whether most jumps of a piecewise constant estimate are of one step of rounding [unit of y].
+
+    A smooth signal that is rounded is stairs, of which such a model explains all.
+    """
+    jumps = np.abs(np.diff(estimate))
+    jumps = jumps[jumps > 0.5 * step]
+    return len(jumps) > 0 and float(np.median(jumps)) < FAR * step
 
 
 def _taken(y: Signal, present: Mask, judge: Judge, estimate: Signal) -> float:

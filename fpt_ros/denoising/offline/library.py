@@ -226,18 +226,16 @@ def fit_all(
 def _swept(y: Signal, present: Mask, begin: mixture.Start) -> dict[str, mixture.Fit]:
     """Sweeps and, where they leave more than noise, sweeps on a curve; empty: there are none."""
     found: dict[str, mixture.Fit] = {}
-    core = sweeps.Sweeps()
-    for name in (SWEEPS, ON_CURVE):
+    for name, core in ((SWEEPS, sweeps.Sweeps()), (ON_CURVE, sweeps.OnCurve())):
         fit = mixture.fit(y, present, core.smooth, begin, y)
         if not len(core.phases):
-            break
+            continue
         own = begin.level(fit.z - fit.estimate, present)
         if own < QUIETER * begin.sigma:
             fit = mixture.fit(y, present, core.smooth, replace(begin, sigma=own), fit.z)
         found[name] = fit
         if is_white((y - fit.estimate) / fit.noise.sigma, present):
             break
-        core = core.on_a_curve()
     return found
 
 

@@ -109,8 +109,11 @@ def _refine(z: Signal, p: Signal, pieces: int) -> None:
         pieces = max(1, pieces // 2)
 
 
-def strongest(z: Signal) -> Signal:
-    """The phase (p1, p2, p3) of the strongest sweep of a signal, shape (n,)."""
+def strongest(z: Signal, slow: int = 0) -> Signal:
+    """The phase (p1, p2, p3) of the strongest sweep of a signal, shape (n,).
+
+    ``slow``: cells of the spectrogram, from 0 on, that hold a curve and count nothing.
+    """
     n = len(z)
     window = int(2 ** round(math.log2(math.sqrt(2.0 * n))))  # for a sweep over the whole band
     hop = max(window // 2, -(-(n - window) // (FRAMES - 1)))
@@ -118,6 +121,7 @@ def strongest(z: Signal) -> Signal:
     frames = z[starts[:, None] + np.arange(window)] * np.hanning(window + 2)[1:-1]
     power = np.abs(np.fft.rfft(frames, 2 * window, axis=1)) ** 2
     seen: Signal = np.log1p(power / max(float(np.median(power)), 1e-300))
+    seen[:, :slow] = 0.0
     middle = 0.5 * (n - 1)
     places = np.asarray((starts + 0.5 * (window - 1) - middle) / middle, dtype=np.float64)
     scale = math.pi / window * middle

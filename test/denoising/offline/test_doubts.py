@@ -81,3 +81,11 @@ def test_jumps_in_white_noise_are_not_coloured_noise():
     found = denoise(y)
     assert found.noise.colour == 0.0
     assert np.sqrt(np.mean((found.estimate - clean) ** 2)) < 0.07
+
+
+def test_stairs_of_rounding_are_no_steps():
+    t = np.linspace(0.0, 1.0, 512)
+    smooth, stairs = np.sin(5.0 * t), np.sign(np.sin(40.0 * t))
+    assert doubts.stairs_of_rounding(np.round(smooth / 0.1) * 0.1, 0.1)
+    assert not doubts.stairs_of_rounding(np.round(stairs / 0.1) * 0.1, 0.1)
+    assert not doubts.stairs_of_rounding(np.zeros(512), 0.1)
