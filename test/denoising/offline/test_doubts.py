@@ -3,7 +3,7 @@
 import numpy as np
 
 from fpt_ros.denoising.offline import denoise
-from fpt_ros.denoising.offline.doubts import FLAT, bursts, no_rounding
+from fpt_ros.denoising.offline.doubts import FLAT, bursts, no_rounding, stairs_of_rounding
 from fpt_ros.denoising.offline.spectral_floor import flatness
 from fpt_ros.denoising.signals import white_noise
 
@@ -86,6 +86,6 @@ def test_jumps_in_white_noise_are_not_coloured_noise():
 def test_stairs_of_rounding_are_no_steps():
     t = np.linspace(0.0, 1.0, 512)
     smooth, stairs = np.sin(5.0 * t), np.sign(np.sin(40.0 * t))
-    assert doubts.stairs_of_rounding(np.round(smooth / 0.1) * 0.1, 0.1)
-    assert not doubts.stairs_of_rounding(np.round(stairs / 0.1) * 0.1, 0.1)
-    assert not doubts.stairs_of_rounding(np.zeros(512), 0.1)
+    assert stairs_of_rounding(np.round(smooth / 0.1) * 0.1, 0.1)
+    assert not stairs_of_rounding(np.round(stairs / 0.1) * 0.1, 0.1)
+    assert not stairs_of_rounding(np.zeros(512), 0.1)
