@@ -93,9 +93,8 @@ class Engine:
             self._work = as_arrays(self._work, CycleWork)
             self._memory = _memory(loop, self._states, self._command)
         else:
-            command: list[Any] = list(self._command)
             states = [stage.state for stage in loop.stages()]
-            self._memory = _memory(loop, states, [memoryview(each) for each in command])
+            self._memory = _memory(loop, states, [vector.data for vector in self._command])
         self._buffers = Buffers(loop, min(CHUNK, self.cycles))
         self._spare = Buffers(loop, CHUNK) if self.cycles >= LONG else self._buffers
 

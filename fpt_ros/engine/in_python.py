@@ -5,17 +5,21 @@ NumPy's arrays take twice as long.
 """
 
 import traceback
-from collections.abc import Callable
+from array import array
+from collections.abc import Callable, Sequence
 from functools import partial
 from types import TracebackType
 from typing import Any
 
 from fpt_ros.cycle import loop as cycle
 from fpt_ros.cycle.loop import CycleConstants, CycleMemory, CycleRows, CycleWork
+from fpt_ros.engine.types import Array
 from fpt_ros.errors import RunFailed
 
 PIECE = 256
 """Cycles whose rows are prepared at a time; each row of a message is an object of 200 bytes."""
+
+NOTHING: "memoryview[float]" = memoryview(array("d"))
 
 
 def in_python(laws: tuple[Callable[..., Any], ...]) -> Callable[..., int]:
@@ -62,13 +66,13 @@ def _piece(rows: CycleRows, first: int, last: int) -> CycleRows:
         for name, each in rows._asdict().items()
         if isinstance(each, tuple)
     }
-    noise: Any = _views(rows.noise, start, end)
-    return rows._replace(first=first, last=last, noise=noise, **parts)
+    parts["noise"] = _views(rows.noise, start, end)  # type: ignore[arg-type]  # the engine's array
+    return rows._replace(first=first, last=last, **parts)
 
 
-def _views(matrix: Any, start: int, end: int) -> list[Any]:
+def _views(matrix: Array, start: int, end: int) -> Sequence["memoryview[float]"]:
     n = matrix.shape[1]
     if n == 0:  # a view of memory cannot be of nothing
-        return [[]] * (end - start)
-    flat = memoryview(matrix).cast("B").cast("d")
+        return [NOTHING] * (end - start)
+    flat = matrix.data.cast("B").cast("d")
     return [flat[at : at + n] for at in range(start * n, end * n, n)]
