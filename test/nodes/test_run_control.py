@@ -46,6 +46,7 @@ EVERYTHING = (
     "plant_simulator.measured=position",
     "plant_simulator.actuators.kinds=[dropouts]",
     "denoiser.method=kalman_bank",
+    "denoiser.sigma=1e-3",
     "denoiser.synchronised=true",
     "fpt_deformer.synchronised=true",
     "parameter_tuner.precursor=true",
