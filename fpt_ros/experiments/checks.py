@@ -1,9 +1,12 @@
 """Whether the stages of a loop fit each other."""
 
+from fpt_ros.cycle.denoiser import FILTER_OF_NOISE
 from fpt_ros.cycle.stages import Loop
+from fpt_ros.denoising.streaming.given_filters import are_given
 from fpt_ros.errors import BadInput
 from fpt_ros.experiments.law_check import check_laws
 from fpt_ros.experiments.workspace import check_workspace
+from fpt_ros.notices import notice
 from fpt_ros.parameters import word
 from fpt_ros.relaxations import RELAXATIONS
 from fpt_ros.tuning import COEFFICIENTS
@@ -53,6 +56,12 @@ def check_fit(loop: "Loop") -> None:
         raise BadInput(
             f"parameter_tuner.model: {word(loop.tuner.values, 'model')} is not the deformer's, "
             f"{word(loop.deformer.values, 'model')}"
+        )
+    values = loop.denoiser.values
+    if values["method"] == FILTER_OF_NOISE and values["synchronised"] and not are_given(values):
+        notice(
+            f"denoiser.synchronised: {FILTER_OF_NOISE} finds its filters by itself, so that two of "
+            "them do not filter alike; give it one (states, densities, sigma)"
         )
     check_laws(loop)
     _check_motion(loop)

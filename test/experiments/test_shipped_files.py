@@ -2,6 +2,7 @@
 
 import pytest
 
+from fpt_ros import notices
 from fpt_ros.cycle.parameter_tuner import in_the_loop
 from fpt_ros.experiments import experiment, parameter_file
 from fpt_ros.experiments.experiment import load
@@ -73,3 +74,12 @@ def test_noise_is_filtered_where_nobody_has_chosen(tmp_path):
     quiet = load(path, settings=["plant_simulator.noise.position=0.0"])
     assert quiet.nodes["denoiser"]["method"] == "none"
     assert load("tora").nodes["denoiser"]["method"] == "none"
+
+
+def test_a_ladder_is_not_synchronised_in_silence(capsys):
+    synchronised = ["denoiser.synchronised=true", "fpt_deformer.synchronised=true"]
+    notices.notice.cache_clear()
+    load("noisy_tora")
+    assert capsys.readouterr().err == ""
+    load("tora", settings=["denoiser.method=kalman_bank", *synchronised])
+    assert "two of them do not filter alike; give it one (states" in capsys.readouterr().err

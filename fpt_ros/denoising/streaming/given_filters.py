@@ -118,7 +118,14 @@ def prepare(values: Values, n: int, dt: float) -> tuple[float, ...]:
                 f"{MOST_STATES}"
             )
         gains = steady_gains(int(size), density, sigma, dt)
-        variance = sigma * sigma / (1.0 - float(gains[0]))
+        rest = 1.0 - float(gains[0])
+        if rest <= 0.0:
+            raise BadInput(
+                f"densities: with {density:g}, sigma = {sigma:g} and dt = {dt:g} s the filter of "
+                f"{size:g} states takes every sample as it is: a smaller density, or none of "
+                "states, densities and sigma"
+            )
+        variance = sigma * sigma / rest
         constants += [size, variance, 1.0 / variance, math.log(variance), *map(float, gains)]
     return tuple(constants)
 

@@ -221,3 +221,8 @@ def test_response_of_plants_of_lower_order(order):
 def test_banks_that_cannot_be(given, reason):
     with pytest.raises(BadInput, match=reason):
         constants_of(KALMAN_BANK, **given)
+
+
+def test_a_filter_that_filters_nothing_is_refused():
+    with pytest.raises(BadInput, match="dt = 10 s the filter of 4 states takes every"):
+        constants_of(KALMAN_BANK, dt=10.0, sigma=1e-3)
