@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import cast
 
+from fpt_ros.denoising.streaming import given_filters
 from fpt_ros.errors import BadInput
 from fpt_ros.experiments.experiment import BASE, LAID_OVER, Experiment, is_path, load
 from fpt_ros.experiments.locate import config_directory
@@ -246,9 +247,10 @@ def _with_noise(one: Experiment, part: float) -> tuple[str, ...]:
         for name in ("noise.position", "noise.velocity")
         if plant[name]
     }
-    if filter_["method"] == "kalman_bank":
-        found["denoiser.sigma"] = _times(filter_["sigma"], part)
-        found["denoiser.densities"] = _times(filter_["densities"], part * part)
+    if filter_["method"] == "kalman_bank" and given_filters.are_given(filter_):
+        sigma, _, densities = given_filters.given(filter_)
+        found["denoiser.sigma"] = _times(sigma, part)
+        found["denoiser.densities"] = _times(densities, part * part)
     return tuple(f"{name}={json.dumps(value)}" for name, value in found.items())
 
 

@@ -8,7 +8,7 @@ from fpt_ros.cycle.healing import HEALING, HealingConstants, heal, keep_estimate
 from fpt_ros.cycle.joints import Entrance
 from fpt_ros.cycle.records import Layout
 from fpt_ros.cycle.rows import Commanded, Measured, StateEstimateRow, no_command
-from fpt_ros.cycle.stage import ANSWERING, JOINTS, REALTIME, ROBOT, Input, Stage
+from fpt_ros.cycle.stage import ANSWERING, IN_FLIGHT, JOINTS, REALTIME, ROBOT, Input, Stage
 from fpt_ros.denoising.streaming import FILTERS, ORDER, Update
 from fpt_ros.errors import BadInput
 from fpt_ros.laws import Matrix, MutableVector, Vector, helper
@@ -225,6 +225,8 @@ class Denoiser(Stage):
         if not n or dt == 0.0:
             return
         constants = list(self.filter.prepare(self.values, n, dt))
+        if self.layout is not None and not self.filter.serves(self.constants.filter, constants):
+            raise BadInput(f"{self.name}: other filters {IN_FLIGHT}")
         heals = healing.constants_of(self.values)
         self.constants = DenoiserConstants(constants, int(self.synchronised), heals)
         size, second = self.filter.state_size(constants, n), int(self.synchronised)

@@ -59,6 +59,8 @@ ENDS_WITH_PLANT = Parameter(
 ANSWERING = (CYCLE_TIME, AUTOSTART, ENDS_WITH_PLANT)
 """Of the stages that answer the plant."""
 
+IN_FLIGHT = "cannot change while the loop runs"
+
 JOINTS = Parameter(
     "joints",
     "names of the plant's coordinates, in its order; empty: as the first message has them",
@@ -171,12 +173,12 @@ class Stage(ABC):
             if not parameter.live and values[parameter.name] != before[parameter.name]:
                 live = ", ".join(sorted(each.name for each in declared if each.live)) or "none"
                 raise BadInput(
-                    f"{self.name}.{parameter.name} cannot change while the loop runs, only {live}"
+                    f"{self.name}.{parameter.name} {IN_FLIGHT}, only {live}"
                 )
         self.values = values
         try:
             self._prepare()
-        except BadInput:
+        except Exception:
             self.values = before
             self._prepare()
             raise
@@ -208,7 +210,7 @@ class Stage(ABC):
         if self.layout is not None and layout.size != len(self.state):
             raise BadInput(
                 f"{self.name}: with these parameters it would remember {layout.size} numbers "
-                f"instead of {len(self.state)}: that cannot change while the loop runs"
+                f"instead of {len(self.state)}: that {IN_FLIGHT}"
             )
         self.layout = layout
         if fresh and isinstance(self.state, array):

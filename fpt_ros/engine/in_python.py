@@ -16,6 +16,8 @@ from fpt_ros.cycle.loop import CycleConstants, CycleMemory, CycleRows, CycleWork
 from fpt_ros.engine.types import Array
 from fpt_ros.errors import RunFailed
 
+BY_ELEMENT = " (a law reads and writes its vectors element by element, without slices)"
+
 PIECE = 256
 """Cycles whose rows are prepared at a time; each row of a message is an object of 200 bytes."""
 
@@ -39,9 +41,10 @@ def in_python(laws: tuple[Callable[..., Any], ...]) -> Callable[..., int]:
                 return _cycle_of(error.__traceback__)
             except Exception as error:
                 where = traceback.extract_tb(error.__traceback__)[-1]
+                hint = BY_ELEMENT if isinstance(error, TypeError) else ""
                 raise RunFailed(
                     f"cycle {_cycle_of(error.__traceback__)}: {type(error).__name__} in "
-                    f"{where.filename}, line {where.lineno}: {error}"
+                    f"{where.filename}, line {where.lineno}: {error}{hint}"
                 ) from error
             if reached < last:
                 return reached

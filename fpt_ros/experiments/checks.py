@@ -2,7 +2,7 @@
 
 from fpt_ros.cycle.denoiser import FILTER_OF_NOISE
 from fpt_ros.cycle.stages import Loop
-from fpt_ros.denoising.streaming.given_filters import are_given
+from fpt_ros.denoising.streaming import given_filters
 from fpt_ros.errors import BadInput
 from fpt_ros.experiments.law_check import check_laws
 from fpt_ros.experiments.workspace import check_workspace
@@ -58,10 +58,11 @@ def check_fit(loop: "Loop") -> None:
             f"{word(loop.deformer.values, 'model')}"
         )
     values = loop.denoiser.values
-    if values["method"] == FILTER_OF_NOISE and values["synchronised"] and not are_given(values):
+    several = values["method"] == FILTER_OF_NOISE and len(given_filters.given(values)[1]) > 1
+    if values["synchronised"] and several:
         notice(
-            f"denoiser.synchronised: {FILTER_OF_NOISE} finds its filters by itself, so that two of "
-            "them do not filter alike; give it one (states, densities, sigma)"
+            f"denoiser.synchronised: two banks of several filters do not filter alike; give "
+            f"{FILTER_OF_NOISE} one (states, densities, sigma)"
         )
     check_laws(loop)
     _check_motion(loop)

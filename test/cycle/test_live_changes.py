@@ -78,16 +78,27 @@ def test_what_may_not_change_in_flight_is_refused_with_what_may():
         stages().denoiser.configure({"method": "wavelet"})
 
 
-def test_a_memory_of_another_size_is_refused_in_flight():
-    loop = experiment.load("tora").with_values("denoiser", method="kalman_bank").loop()
+@pytest.mark.parametrize("plant", ["tora", "duffing"])
+def test_other_filters_are_refused_in_flight(plant):
+    # of one coordinate, two members of the ladder remember as much as the four given filters
+    given = {"method": "kalman_bank", "members": 2}
+    loop = experiment.load(plant).with_values("denoiser", **given).loop()
     denoiser = loop.denoiser
     denoiser.begin(loop.plant.measure(0, 0))
     before, state = dict(denoiser.values), list(denoiser.state)
-    with pytest.raises(BadInput, match=r"denoiser: .* remember 79 numbers instead of 465: that"):
+    with pytest.raises(BadInput, match="denoiser: other filters cannot change while the loop runs"):
         denoiser.configure({"sigma": 1e-3})
+    with pytest.raises(BadInput, match="fastest"):
+        denoiser.configure({"fastest": 1000.0})
     assert denoiser.values == before
     assert list(denoiser.state) == state
     denoiser.configure({"gate": 6.0})
+
+
+def test_more_filters_are_refused_in_flight():
+    denoiser = experiment.load("noisy_tora").loop().denoiser
+    with pytest.raises(BadInput, match="states cannot change while the loop runs"):
+        denoiser.configure({"states": [3.0, 4.0], "densities": [1e2, 1e4]})
 
 
 def test_a_bad_live_list_is_refused():

@@ -82,4 +82,4 @@ def test_a_ladder_is_not_synchronised_in_silence(capsys):
     load("noisy_tora")
     assert capsys.readouterr().err == ""
     load("tora", settings=["denoiser.method=kalman_bank", *synchronised])
-    assert "two of them do not filter alike; give it one (states" in capsys.readouterr().err
+    assert "two banks of several filters do not filter alike; give" in capsys.readouterr().err

@@ -45,6 +45,8 @@ SIGMAS = 4.0
 FAR, STICKS_OUT = 1.5, 0.7
 """Steps of rounding that an estimate is from its sample at most, but for an impulse; and the share
 of its residual by which an impulse sticks out of both neighbours."""
+ONWARDS = 0.75
+"""Share of the jumps of stairs that go on the way of the last one, from which on it is a slope."""
 LIVELY = 0.25
 """Share of a residual by which the estimate moves from sample to sample, from which on it may be
 the signal."""
@@ -100,13 +102,16 @@ def no_rounding(y: Signal, estimate: Signal, step: float) -> Mask:
 
 
 def stairs_of_rounding(estimate: Signal, step: float) -> bool:
-    """Whether most jumps of a piecewise constant estimate are of one step of rounding [unit of y].
+    """Whether the jumps of a piecewise constant estimate are those of a slope that was rounded.
 
-    A smooth signal that is rounded is stairs, of which such a model explains all.
+    Most are of one step of rounding [unit of y], and go on the way that the last one went: a smooth
+    signal that is rounded is such stairs, a switch or a walk is not.
     """
-    jumps = np.abs(np.diff(estimate))
-    jumps = jumps[jumps > 0.5 * step]
-    return len(jumps) > 0 and float(np.median(jumps)) < FAR * step
+    jumps = np.diff(estimate)
+    jumps = jumps[np.abs(jumps) > 0.5 * step]
+    if len(jumps) < 2 or float(np.median(np.abs(jumps))) >= FAR * step:
+        return False
+    return float(np.mean(jumps[1:] * jumps[:-1] > 0.0)) > ONWARDS
 
 
 def _taken(y: Signal, present: Mask, judge: Judge, estimate: Signal) -> float:

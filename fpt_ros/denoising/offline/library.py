@@ -85,6 +85,8 @@ WAVELETS = ("haar", "sym8")
 QUIETER = 0.8
 """Share of the noise that was found, below which what sweeps leave is the noise: they had hidden
 how low it is."""
+RARER = 0.5
+"""The same of the share of impulses: what no other member explains looks like them."""
 STEP_DF = 3.0
 """Least degrees of freedom per segment of ``steps``: those of its derivative vanish where the noise
 is finer than its grid of levels."""
@@ -219,7 +221,8 @@ def fit_all(
     general = [_member(name, fit) for name, fit in named.items()]
     special += [_member(name, fit) for name, fit in swept.items()]
     if swept:
-        judge = _quieter(judge, [*general, *special], *swept.popitem())
+        name, fit = list(swept.items())[-1]
+        judge = _quieter(judge, [*general, *special], name, fit)
     return judge, general, special
 
 
@@ -240,7 +243,10 @@ def _swept(y: Signal, present: Mask, begin: mixture.Start) -> dict[str, mixture.
 
 
 def _quieter(judge: Judge, members: Sequence[Member], name: str, fit: mixture.Fit) -> Judge:
-    """The judge of sweeps that had hidden how low the noise is, where they are the best by that."""
+    """The judge of sweeps that had hidden how low the noise is, or looked like impulses.
+
+    Where they are the best by their own noise; else the judge as it is.
+    """
     other = replace(judge, noise=fit.noise)
-    believed = fit.noise.s < QUIETER * judge.noise.s
-    return other if believed and min(members, key=other.score).name == name else judge
+    hidden = fit.noise.s < QUIETER * judge.noise.s or fit.noise.p < RARER * judge.noise.p
+    return other if hidden and min(members, key=other.score).name == name else judge

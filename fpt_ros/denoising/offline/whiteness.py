@@ -23,7 +23,7 @@ def is_white(residual: Signal, present: Mask) -> bool:
         residual: in units of the noise's standard deviation, shape (n,).
         present: False where a sample is missing.
     """
-    clipped = np.where(present, np.clip(residual, -CLIP, CLIP), 0.0)
+    clipped = np.clip(residual[present], -CLIP, CLIP)
     x = clipped - clipped.mean()
     power = float(x @ x)
     alike = sum(float(x[lag:] @ x[:-lag]) ** 2 for lag in range(1, LAGS + 1))

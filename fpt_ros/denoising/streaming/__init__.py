@@ -36,8 +36,11 @@ class Filter:
         update: ``update(constants, state, dt, q, v, out_q, out_v, out_response)`` with the sample
             dt [s] after the last one.
         parameters: its own, beside ``order``.
+        serves: ``serves(before, now)``: whether what was remembered with the constants before
+            serves for others, if it is as much.
         deviation: ``deviation(constants, state, c)`` -> standard deviations of position, velocity
-            and response of coordinate c as they are now; None: it does not know.
+            and response of coordinate c as they are now; None, here or
+            as an answer: it does not know.
     """
 
     prepare: Callable[[Values, int, float], tuple[float, ...]]
@@ -45,6 +48,7 @@ class Filter:
     start: Callable[[Vector, MutableVector, Vector, Vector], None]
     update: Update
     parameters: tuple[Parameter, ...] = ()
+    serves: Callable[[Vector, Vector], bool] = lambda before, now: True
     deviation: Callable[[Vector, Vector, int], tuple[float, float, float] | None] | None = None
 
 

@@ -81,8 +81,16 @@ _MEMBER = 4
 
 def are_given(values: Values) -> bool:
     """Whether any of what makes these filters is given."""
-    given = number(values, "sigma"), numbers(values, "states"), numbers(values, "densities")
-    return any(map(bool, given))
+    return any((number(values, "sigma"), numbers(values, "states"), numbers(values, "densities")))
+
+
+def given(values: Values) -> tuple[float, list[float], list[float]]:
+    """sigma, states and densities, with what stands for those that are not given."""
+    return (
+        number(values, "sigma") or SIGMA,
+        numbers(values, "states") or STATES,
+        numbers(values, "densities") or DENSITIES,
+    )
 
 
 def prepare(values: Values, n: int, dt: float) -> tuple[float, ...]:
@@ -91,9 +99,8 @@ def prepare(values: Values, n: int, dt: float) -> tuple[float, ...]:
     S is the variance of the innovation. Shared: minus the number of members, samples without
     gating, forgetting, gate^2, RECOVERED^2, 1/dt, the order of the response and its scale.
     """
-    sigma, gate = number(values, "sigma") or SIGMA, number(values, "gate") or GATE
-    states = numbers(values, "states") or STATES
-    densities = numbers(values, "densities") or DENSITIES
+    sigma, states, densities = given(values)
+    gate = number(values, "gate") or GATE
     order = integer(values, ORDER.name)
     if len(states) != len(densities):
         raise BadInput(
@@ -119,11 +126,11 @@ def prepare(values: Values, n: int, dt: float) -> tuple[float, ...]:
             )
         gains = steady_gains(int(size), density, sigma, dt)
         rest = 1.0 - float(gains[0])
-        if rest <= 0.0:
+        if not 0.0 < rest < 1.0:
             raise BadInput(
                 f"densities: with {density:g}, sigma = {sigma:g} and dt = {dt:g} s the filter of "
-                f"{size:g} states takes every sample as it is: a smaller density, or none of "
-                "states, densities and sigma"
+                f"{size:g} states takes every sample as it is, or none: another density, or give "
+                "neither states, densities nor sigma"
             )
         variance = sigma * sigma / rest
         constants += [size, variance, 1.0 / variance, math.log(variance), *map(float, gains)]

@@ -67,6 +67,11 @@ def update(
         update_given(constants, state, dt, q, v, out_q, out_v, out_response)
 
 
+def serves(before: Vector, now: Vector) -> bool:
+    """Whether both are ladders, or given filters."""
+    return (before[0] > 0.0) == (now[0] > 0.0)
+
+
 def deviation(constants: Vector, state: Vector, c: int) -> tuple[float, float, float] | None:
     """As the ladder knows them; given filters believe what they are given."""
     return deviation_of_ladder(constants, state, c) if constants[0] > 0.0 else None
@@ -78,5 +83,6 @@ KALMAN_BANK = Filter(
     start,
     update,
     (*given_filters.PARAMETERS, GATE, *ladder.PARAMETERS),
+    serves,
     deviation,
 )

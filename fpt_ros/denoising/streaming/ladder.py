@@ -14,7 +14,14 @@ from fpt_ros.parameters import Parameter, Values, integer, number
 PARAMETERS = (
     Parameter("members", "filters of the ladder", 18, minimum=2, maximum=40, live=False),
     Parameter("slowest", "bandwidth of its slowest filter", 3e-3, unit="rad/sample", above=0.0),
-    Parameter("fastest", "bandwidth of its fastest filter", 3.0, unit="rad/sample", above=0.0),
+    Parameter(
+        "fastest",
+        "bandwidth of its fastest filter",
+        3.0,
+        unit="rad/sample",
+        above=0.0,
+        maximum=30.0,
+    ),
 )
 
 GATE = 5.0

@@ -49,6 +49,8 @@ class Prediction(NamedTuple):
 def steady_prediction(states: int, density: float, sigma: float, dt: float) -> Prediction:
     """The steady filter; its unit of time is (sigma^2 dt / density)^(1/(2 states))."""
     unit = (sigma * sigma * dt / density) ** (0.5 / states)
+    if not 0.0 < unit < math.inf:
+        raise BadInput(f"sigma = {sigma:g} and density = {density:g}: out of the range of numbers")
     h = dt / unit
     order = np.arange(states)
     power = order[None, :] - order[:, None]

@@ -85,7 +85,21 @@ def test_jumps_in_white_noise_are_not_coloured_noise():
 
 def test_stairs_of_rounding_are_no_steps():
     t = np.linspace(0.0, 1.0, 512)
-    smooth, stairs = np.sin(5.0 * t), np.sign(np.sin(40.0 * t))
+    smooth, switch = np.sin(5.0 * t), np.sign(np.sin(40.0 * t))
+    walk = np.repeat(np.cumsum(np.random.default_rng(3).choice([-1.0, 1.0], 32)), 16)
     assert stairs_of_rounding(np.round(smooth / 0.1) * 0.1, 0.1)
-    assert not stairs_of_rounding(np.round(stairs / 0.1) * 0.1, 0.1)
+    assert not stairs_of_rounding(np.round(switch / 0.1) * 0.1, 0.1)
+    assert not stairs_of_rounding(switch, 2.0)
+    assert not stairs_of_rounding(walk, 1.0)
     assert not stairs_of_rounding(np.zeros(512), 0.1)
+
+
+def test_a_walk_of_single_steps_is_one():
+    left = []
+    for seed in range(5):
+        r = np.random.default_rng(seed)
+        walk = np.repeat(np.cumsum(r.choice([-1.0, 1.0], 20)), 50)
+        y = walk.copy()
+        y[r.choice(1000, 30, False)] += r.choice([-4.0, -3.0, 3.0, 4.0], 30)
+        left.append(np.mean((denoise(y).estimate - walk) ** 2) / np.mean((y - walk) ** 2))
+    assert np.median(left) < 0.005

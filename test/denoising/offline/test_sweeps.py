@@ -97,6 +97,14 @@ def test_auto_takes_them(spoil):
     assert gain(clean, y, denoise(y).estimate) > 12.0
 
 
+def test_the_noise_is_told_that_sweeps_had_hidden():
+    parts = SIGNALS["three, two of which begin alike"]
+    clean = sum(sweep(*part, begin=i) for i, part in enumerate(parts))
+    result = denoise(clean + noise(10, 0.05))
+    assert result.sigma == pytest.approx(0.05, rel=0.25)
+    assert result.noise.impulses < 0.05
+
+
 def test_it_says_so():
     y = sweep(0.02, 0.26, 0.48) + noise(9, 0.3)
     assert denoise(y).weights["sweeps"] > 0.9
@@ -121,4 +129,7 @@ def test_white_noise_is_white_whatever_its_tails():
     assert not is_white(sweep(0.0, 0.25, 0.5) + 0.3 * noise(7), everywhere)
     coloured = noise(8)
     coloured[1:] += 0.7 * coloured[:-1]
+    gap = everywhere.copy()
+    gap[100:400] = False
+    assert np.mean([is_white(np.where(gap, x, 0.0), gap) for x in white]) > 0.95
     assert not is_white(coloured, everywhere)

@@ -226,3 +226,9 @@ def test_banks_that_cannot_be(given, reason):
 def test_a_filter_that_filters_nothing_is_refused():
     with pytest.raises(BadInput, match="dt = 10 s the filter of 4 states takes every"):
         constants_of(KALMAN_BANK, dt=10.0, sigma=1e-3)
+
+
+@pytest.mark.parametrize("sigma", [1e-170, 1e200])
+def test_noise_out_of_the_range_of_numbers_is_refused(sigma):
+    with pytest.raises(BadInput, match="sigma = 1e"):
+        constants_of(KALMAN_BANK, sigma=sigma)
