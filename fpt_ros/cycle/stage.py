@@ -172,9 +172,7 @@ class Stage(ABC):
         for parameter in declared:
             if not parameter.live and values[parameter.name] != before[parameter.name]:
                 live = ", ".join(sorted(each.name for each in declared if each.live)) or "none"
-                raise BadInput(
-                    f"{self.name}.{parameter.name} {IN_FLIGHT}, only {live}"
-                )
+                raise BadInput(f"{self.name}.{parameter.name} {IN_FLIGHT}, only {live}")
         self.values = values
         try:
             self._prepare()
