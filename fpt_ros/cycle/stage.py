@@ -60,6 +60,7 @@ ANSWERING = (CYCLE_TIME, AUTOSTART, ENDS_WITH_PLANT)
 """Of the stages that answer the plant."""
 
 IN_FLIGHT = "cannot change while the loop runs"
+"""What a refusal of such a change says."""
 
 JOINTS = Parameter(
     "joints",

@@ -1,8 +1,8 @@
 """Whether the stages of a loop fit each other."""
 
-from fpt_ros.cycle.denoiser import FILTER_OF_NOISE
 from fpt_ros.cycle.stages import Loop
 from fpt_ros.denoising.streaming import given_filters
+from fpt_ros.denoising.streaming.kalman_bank import KALMAN_BANK
 from fpt_ros.errors import BadInput
 from fpt_ros.experiments.law_check import check_laws
 from fpt_ros.experiments.workspace import check_workspace
@@ -57,12 +57,12 @@ def check_fit(loop: "Loop") -> None:
             f"parameter_tuner.model: {word(loop.tuner.values, 'model')} is not the deformer's, "
             f"{word(loop.deformer.values, 'model')}"
         )
-    values = loop.denoiser.values
-    several = values["method"] == FILTER_OF_NOISE and len(given_filters.given(values)[1]) > 1
-    if values["synchronised"] and several:
+    denoiser = loop.denoiser
+    is_bank = denoiser.filter is KALMAN_BANK
+    if denoiser.synchronised and is_bank and len(given_filters.given(denoiser.values)[1]) > 1:
         notice(
-            f"denoiser.synchronised: two banks of several filters do not filter alike; give "
-            f"{FILTER_OF_NOISE} one (states, densities, sigma)"
+            "denoiser.synchronised: two banks of several filters do not filter alike; give "
+            "kalman_bank one (states, densities, sigma)"
         )
     check_laws(loop)
     _check_motion(loop)

@@ -1,11 +1,17 @@
 """Parameters that change in flight: what is kept, refused, put into force."""
 
+from typing import NamedTuple
+
 import pytest
 from stages_made import NAN, desired, estimate, frames_of, stages
 
 from fpt_ros.cycle.fpt_deformer import FptDeformer
+from fpt_ros.cycle.records import Layout
+from fpt_ros.cycle.stage import Stage
 from fpt_ros.errors import BadInput
 from fpt_ros.experiments import experiment
+from fpt_ros.laws import MutableVector
+from fpt_ros.parameters import Parameter
 
 
 def test_a_live_change_keeps_what_was_remembered():
@@ -93,6 +99,30 @@ def test_other_filters_are_refused_in_flight(plant):
     assert denoiser.values == before
     assert list(denoiser.state) == state
     denoiser.configure({"gate": 6.0})
+
+
+class Numbers(NamedTuple):
+    kept: MutableVector
+
+
+class Growing(Stage):
+    name = "growing"
+
+    @classmethod
+    def parameters(cls, given):
+        return (Parameter("size", "how much it remembers", 3),)
+
+    def _prepare(self):
+        self.memory, _ = self._remember(Layout(Numbers, kept=self.values["size"]))
+
+
+def test_a_memory_of_another_size_is_refused_in_flight():
+    stage = Growing({})
+    stage.memory.kept[2] = 7.0
+    with pytest.raises(BadInput, match=r"growing: .* remember 4 numbers instead of 3: that cannot"):
+        stage.configure({"size": 4})
+    assert stage.values["size"] == 3
+    assert list(stage.memory.kept) == [0.0, 0.0, 7.0]
 
 
 def test_more_filters_are_refused_in_flight():

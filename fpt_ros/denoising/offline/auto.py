@@ -114,8 +114,8 @@ def look(
     judge, general, special = library.fit_all(
         y, present, beginning.begin, beginning.process.fit, white, choice
     )
-    if judge.noise.s < library.QUIETER * beginning.begin.sigma:
-        beginning = beginning.quieter(judge.noise.s)
+    if judge.was_hidden:
+        beginning = beginning.at_level(judge.noise.s)
     varies = np.ndim(beginning.begin.profile) > 0
     if varies:
         general = [*general, special[0]]

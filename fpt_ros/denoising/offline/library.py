@@ -111,11 +111,15 @@ class Choice:
 
 @dataclass(frozen=True)
 class Judge:
-    """Scores members under one mixture."""
+    """Scores members under one mixture.
+
+    ``was_hidden``: that of sweeps, which had hidden it from all others.
+    """
 
     y: Signal
     present: Mask
     noise: mixture.Noise
+    was_hidden: bool = False
 
     def mean(self, name: str, members: Sequence[Member], temperature: float) -> Member:
         """The weighted mean of ``members``."""
@@ -247,6 +251,6 @@ def _quieter(judge: Judge, members: Sequence[Member], name: str, fit: mixture.Fi
 
     Where they are the best by their own noise; else the judge as it is.
     """
-    other = replace(judge, noise=fit.noise)
+    other = replace(judge, noise=fit.noise, was_hidden=True)
     hidden = fit.noise.s < QUIETER * judge.noise.s or fit.noise.p < RARER * judge.noise.p
     return other if hidden and min(members, key=other.score).name == name else judge

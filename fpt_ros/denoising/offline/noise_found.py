@@ -31,9 +31,9 @@ class Beginning:
     process: process_member.Smoothed
     step: float
 
-    def quieter(self, sigma: float) -> "Beginning":
-        """The same where the noise turned out to be lower."""
-        return replace(self, begin=replace(self.begin, sigma=sigma, inflation=1.0))
+    def at_level(self, sigma: float) -> "Beginning":
+        """The same where the noise turned out to be of another level."""
+        return replace(self, begin=replace(self.begin, sigma=sigma))
 
     def noise(self, impulses: float) -> Noise:
         """The noise in the words of the result, given the share of impulses."""

@@ -7,7 +7,7 @@ import numpy as np
 from numba import njit
 
 from fpt_ros.denoising.offline import Signal
-from fpt_ros.denoising.offline.sweep_phase import frequency, phase
+from fpt_ros.denoising.offline.sweep_phase import frequency, phase, second, third
 
 LONGEST, LEAST_SHARE = 2.0, 0.05
 """Longest change [rad] of a step, and the least share of it that is tried."""
@@ -52,8 +52,8 @@ def _with_slopes(rows: Signal, amplitude: Signal) -> Signal:
             s = (i - middle) / middle
             slope = b * rows[1 + 2 * j, i] - a * rows[2 + 2 * j, i]
             more[at, i] = slope * s
-            more[at + 1, i] = slope * (1.5 * s * s - 0.5)
-            more[at + 2, i] = slope * (2.5 * s * s - 1.5) * s
+            more[at + 1, i] = slope * second(s)
+            more[at + 2, i] = slope * third(s)
     return more
 
 

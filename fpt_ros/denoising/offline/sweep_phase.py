@@ -27,9 +27,21 @@ ROUNDS = 20
 
 
 @njit(cache=True)
+def second(s: float) -> float:
+    """P2(s)."""
+    return 1.5 * s * s - 0.5
+
+
+@njit(cache=True)
+def third(s: float) -> float:
+    """P3(s)."""
+    return (2.5 * s * s - 1.5) * s
+
+
+@njit(cache=True)
 def phase(p: Signal, s: float) -> Any:
     """phi(s) [rad]."""
-    return p[0] * s + p[1] * (1.5 * s * s - 0.5) + p[2] * (2.5 * s * s - 1.5) * s
+    return p[0] * s + p[1] * second(s) + p[2] * third(s)
 
 
 @njit(cache=True)
