@@ -2,7 +2,7 @@
 
 from collections.abc import Callable, Sequence
 from functools import partial
-from typing import Any
+from typing import Any, cast
 
 import numpy as np
 
@@ -94,7 +94,8 @@ class Engine:
             self._memory = _memory(loop, self._states, self._command)
         else:
             states = [stage.state for stage in loop.stages()]
-            self._memory = _memory(loop, states, [vector.data for vector in self._command])
+            command = [cast("memoryview[float]", vector.data) for vector in self._command]
+            self._memory = _memory(loop, states, command)
         self._buffers = Buffers(loop, min(CHUNK, self.cycles))
         self._spare = Buffers(loop, CHUNK) if self.cycles >= LONG else self._buffers
 
@@ -249,13 +250,14 @@ def _constants(loop: Loop) -> CycleConstants:
     )
 
 
-def _memory(loop: Loop, states: Sequence[Buffer], command: Sequence[Any]) -> CycleMemory:
+def _memory(loop: Loop, states: Sequence[Buffer], command: Sequence[Buffer]) -> CycleMemory:
     """The stages' memories on their own states."""
     records: Any = [
         stage.layout.on(state) if stage.layout is not None else empty(TunerMemory)
         for stage, state in zip(loop.stages(), states, strict=True)
     ]
-    records.append(CommandRow(*command))
+    vectors: Any = command
+    records.append(CommandRow(*vectors))
     return CycleMemory(*records)
 
 
