@@ -37,11 +37,15 @@ PRIOR = 9.0
 acceleration is several times as great."""
 
 # places among the constants: shared ones, then by member four gains and these
-HEADER, MEMBER = 4, 10
-REST, LEVEL, KEPT, PRICE, AGAINST, BANDWIDTH = range(4, MEMBER)
-# places in the memory of a coordinate: shared ones, then vectors over the members
-LAST, BEFORE, LSB, SIGMA, PEAK, HELD, GAP, COUNT, BEST, SPEED, UNEVEN, SHARED = range(12)
-EACH = 8
+HEADER, MEMBER = 4, 11
+REST, LEVEL, FORGETS, PRICE, AGAINST, BANDWIDTH, SPREAD = range(4, MEMBER)
+
+# places in the memory of a coordinate: shared ones, then two hypotheses, the believed one first
+LAST, BEFORE, LSB, UNEVEN, COUNT, GAP, SPEED, TYPICAL, SLOWEST, FASTEST = range(10)
+UNDECIDED, HELD, DOUBTS, SURPRISE, PEAK, MOTION, QUICK, SLOWER, SHARED = range(10, 19)
+# places in a hypothesis: of all members, then vectors over them, the first four of them the states
+SIGMA, BEST, MEMBERS = range(3)
+EVIDENCE, MEDIAN, COST, EACH = range(4, 8)
 
 
 def innovation_gain(gains: NDArray[np.float64]) -> float:
@@ -58,9 +62,9 @@ def innovation_gain(gains: NDArray[np.float64]) -> float:
 def prepare(values: Values, n: int, dt: float) -> tuple[float, ...]:
     """Constants: members, gate, order of the response, 1 / dt; then those of each member.
 
-    These are four gains, 1 - K, the factor of |e| for sigma, what of the evidence is kept, the
-    price of its innovation's variance over that of the next, the prior against that one, and the
-    bandwidth.
+    These are four gains, 1 - K, the factor of |e| for sigma, the share of the evidence that a
+    sample forgets, the price of its innovation's variance over that of the next, the prior against
+    that one, the bandwidth, and the inverse of the factor for sigma.
     """
     slowest, fastest = number(values, "slowest"), number(values, "fastest")
     if slowest >= fastest:
@@ -73,36 +77,58 @@ def prepare(values: Values, n: int, dt: float) -> tuple[float, ...]:
     for h, g, own, faster in zip(ladder, gains, price, [*price[1:], price[-1]], strict=True):
         rest = 1.0 - float(g[0])
         level = 1.0 / (0.6745 * math.sqrt(innovation_gain(g)))
-        kept = 1.0 - min(FORGOTTEN * float(h), MOST_FORGOTTEN)
+        forgets = min(FORGOTTEN * float(h), MOST_FORGOTTEN)
         against = PRIOR * rest if h < ladder[-1] else 0.0
-        constants += [*map(float, g), rest, level, kept, own - faster, against, float(h)]
+        constants += [*map(float, g), rest, level, forgets, own - faster, against, float(h)]
+        constants.append(1.0 / level)
     return tuple(constants)
 
 
-def state_size(constants: Vector, n: int) -> int:
-    """Of each coordinate what is shared; by member four states, evidence, median, innovation, cost.
+@helper
+def hypothesis(members: int) -> int:
+    """Size of a hypothesis: sigma, the least cost; by member states, evidence, median, cost.
 
     The evidence is that for the faster neighbour; the cost, what speaks against the member, is the
-    sum of it over all faster ones, less their prior, in units of -2 log likelihood.
+    sum of it over all faster ones, less their prior, in units of -2 log likelihood. The median is
+    that of |e|, over what it is in noise of sigma = 1.
     """
-    return n * (SHARED + EACH * int(constants[0]))
+    return MEMBERS + EACH * members
+
+
+@helper
+def memory(members: int) -> int:
+    """Size of what is remembered of a coordinate.
+
+    ``LAST`` and ``BEFORE``: samples; ``LSB``, ``UNEVEN``: step of rounding, and how far second
+    differences are from multiples of it; ``COUNT``, ``GAP``: samples, and missing ones in a row;
+    ``SPEED``: the greatest of late, by sample. ``SLOWEST`` to ``FASTEST``: the member whose
+    innovations are usually the least, ``TYPICAL`` being their standard deviation, to the likeliest
+    one, or the other way round. The others are of doubts
+    (:mod:`~fpt_ros.denoising.streaming.ladder_doubts`).
+    """
+    return SHARED + 2 * hypothesis(members)
+
+
+def state_size(constants: Vector, n: int) -> int:
+    """Of each coordinate what is shared, and two hypotheses."""
+    return n * memory(int(constants[0]))
 
 
 def start(constants: Vector, state: MutableVector, q: Vector, v: Vector) -> None:
     """At rest where it is."""
     members = int(constants[0])
-    size = SHARED + EACH * members
     for c in range(len(q)):
-        first = c * size
-        for i in range(size):
+        first = c * memory(members)
+        for i in range(memory(members)):
             state[first + i] = 0.0
         state[first + LAST] = state[first + BEFORE] = q[c]
-        cost = 0.0
+        state[first + MOTION] = 1.0
+        x, cost = first + SHARED + MEMBERS, 0.0
         for m in range(members - 1, -1, -1):
             cost -= constants[HEADER + MEMBER * m + AGAINST]
-            state[first + SHARED + m] = q[c]
-            state[first + SHARED + m + 7 * members] = cost
-        state[first + BEST] = cost
+            state[x + m] = q[c]
+            state[x + m + COST * members] = cost
+        state[first + SHARED + BEST] = cost
 
 
 @helper

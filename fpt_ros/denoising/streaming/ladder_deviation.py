@@ -9,13 +9,15 @@ from numpy.typing import NDArray
 from fpt_ros.denoising.streaming.ladder import (
     BANDWIDTH,
     BEST,
-    EACH,
+    COST,
     GAP,
     HEADER,
     MEMBER,
+    MEMBERS,
     SHARED,
     SIGMA,
     STATES,
+    memory,
     weight_of,
 )
 from fpt_ros.denoising.streaming.steady_filter import steady_prediction
@@ -28,9 +30,9 @@ LONGEST_GAP = 1000
 def weights(constants: Vector, state: Vector, c: int) -> list[float]:
     """Weight of each member in the estimates of coordinate c, the slowest first."""
     members = int(constants[0])
-    first = c * (SHARED + EACH * members)
-    costs = first + SHARED + 7 * members
-    found = [weight_of(state[costs + m] - state[first + BEST]) for m in range(members)]
+    believed = c * memory(members) + SHARED
+    costs = believed + MEMBERS + COST * members
+    found = [weight_of(state[costs + m] - state[believed + BEST]) for m in range(members)]
     return [w / math.fsum(found) for w in found]
 
 
@@ -52,12 +54,12 @@ def deviation(constants: Vector, state: Vector, c: int) -> tuple[float, float, f
     The variance of the mixture: the mean of the members', and their spread.
     """
     members, rate = int(constants[0]), constants[3]
-    first = c * (SHARED + EACH * members)
+    first = c * memory(members)
     gap = min(int(state[first + GAP]), LONGEST_GAP)
-    sigma, w = state[first + SIGMA], np.array(weights(constants, state, c))
+    sigma, w = state[first + SHARED + SIGMA], np.array(weights(constants, state, c))
     found = []
     for i, unit in enumerate((1.0, rate, 2.0 * rate * rate)):
-        at = first + SHARED + i * members
+        at = first + SHARED + MEMBERS + i * members
         x = np.array([state[at + m] for m in range(members)])
         own = [
             covariance(constants[HEADER + MEMBER * m + BANDWIDTH], gap)[i, i]

@@ -10,8 +10,14 @@ from filter_runs import bang_bang, constants_of, noise, rms, run, two_sines
 from fpt_ros.denoising.streaming import Update
 from fpt_ros.denoising.streaming.kalman_bank import KALMAN_BANK
 from fpt_ros.denoising.streaming.ladder import LSB as LSB_PLACE
-from fpt_ros.denoising.streaming.ladder import SIGMA, UNEVEN, innovation_gain, weight_of
-from fpt_ros.denoising.streaming.ladder_update import MOST_UNEVEN
+from fpt_ros.denoising.streaming.ladder import (
+    SHARED,
+    SIGMA,
+    UNEVEN,
+    innovation_gain,
+    weight_of,
+)
+from fpt_ros.denoising.streaming.ladder_members import MOST_UNEVEN
 from fpt_ros.denoising.streaming.steady_filter import steady_gains
 from fpt_ros.engine import compiled
 from fpt_ros.errors import BadInput
@@ -101,7 +107,7 @@ def test_innovation_in_white_noise():
 @pytest.mark.parametrize("sigma", [1e-6, 1e-2])
 def test_sigma_is_found(sigma):
     q = two_sines(5000)[0] + noise(5000, 4, sigma)
-    assert ended(q)[1][SIGMA] == pytest.approx(sigma, rel=0.25)
+    assert ended(q)[1][SHARED + SIGMA] == pytest.approx(sigma, rel=0.25)
 
 
 def test_the_step_of_an_encoder_is_found():
