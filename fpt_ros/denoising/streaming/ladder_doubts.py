@@ -68,6 +68,10 @@ VERDICT = 0.1
 LEAST, MOST = 0.05, 1.0
 """How much nearer the members with the sample have to be for a motion, as a ratio of distances:
 where all verdicts were impulses, and where all were motions."""
+UNHEARD = 10.0
+"""Beyond so many times the gate it takes three samples for a motion, where filters bear that."""
+ONWARD = 0.5
+"""And they are off the same way as before, by at least this share of that."""
 BACK = 0.5
 """Within this share of the gate the next sample is where it was expected."""
 LITTLE = 0.1
@@ -90,27 +94,38 @@ def _copy(state: MutableVector, source: int, target: int, size: int) -> None:
 
 
 @helper
-def decide(
+def is_waiting(
     constants: Vector, state: MutableVector, first: int, members: int, newest: float
-) -> None:
-    """Whether the doubtful sample before this one was of a motion; that hypothesis is believed."""
+) -> bool:
+    """Decide on the doubtful sample before this one, whose hypothesis is believed from now on.
+
+    Where it takes one sample more, this one is kept back as well, and the answer is True.
+    """
     believed = first + SHARED
     other = believed + hypothesis(members)
     slowest, fastest = int(state[first + SLOWEST]) & FEW, int(state[first + FASTEST]) & FEW
     held = state[first + HELD] > 0.0
     without = miss(state, believed if held else other, slowest, fastest, newest)
     with_it = miss(state, other if held else believed, slowest, members - 1, newest)
-    share = state[first + MOTION]
-    is_motion = (
-        with_it < (LEAST + (MOST - LEAST) * share) * without
-        and without > BACK * constants[1] * state[first + TYPICAL]
-    )
+    share, surprise = state[first + MOTION], state[first + SURPRISE]
+    gate = constants[1] * state[first + TYPICAL]
+    now = newest - state[(believed if held else other) + MEMBERS + slowest]
+    is_motion = now * surprise > ONWARD * surprise * surprise and without > BACK * gate
+    is_motion = is_motion and with_it < (LEAST + (MOST - LEAST) * share) * without
+    h = constants[HEADER + MEMBER * fastest + BANDWIDTH]
+    if is_motion and held and state[first + UNDECIDED] == 1.0 and h < CALM:
+        if abs(surprise) > UNHEARD * gate:
+            state[first + UNDECIDED] = 2.0
+            correct(constants, state, first, other, members, newest, 0.0)
+            note(state, first, newest)
+            return True
     state[first + MOTION] += VERDICT * ((1.0 if is_motion else 0.0) - share)
-    if is_motion and state[first + PEAK] < state[first + SURPRISE]:
-        state[first + PEAK] = state[first + SURPRISE]
+    if is_motion and state[first + PEAK] < abs(surprise):
+        state[first + PEAK] = abs(surprise)
     if is_motion == held:
         _copy(state, other, believed, hypothesis(members))
     state[first + UNDECIDED] = 0.0
+    return False
 
 
 @helper
@@ -182,7 +197,8 @@ def take(constants: Vector, state: MutableVector, first: int, members: int, newe
     if is_odd and (doubts == 0.0 or (doubts < MOST_DOUBTS and doubts * h < 1.0)):
         _copy(state, believed, other, hypothesis(members))
         state[first + UNDECIDED] = 1.0
-        state[first + SURPRISE] = nearest
+        ahead = newest > state[believed + MEMBERS + slowest]
+        state[first + SURPRISE] = nearest if ahead else -nearest
         is_held = nearest > BEYOND * peak and nearest > MOVES * state[first + SPEED]
         is_held = is_held and doubts * h < 1.0
         state[first + HELD] = 1.0 if is_held else 0.0

@@ -26,7 +26,7 @@ from fpt_ros.denoising.streaming.ladder import (
     memory,
     weight_of,
 )
-from fpt_ros.denoising.streaming.ladder_doubts import FADING, decide, follow_noise, take
+from fpt_ros.denoising.streaming.ladder_doubts import FADING, follow_noise, is_waiting, take
 from fpt_ros.denoising.streaming.ladder_members import FEW, advance
 from fpt_ros.denoising.streaming.three_states import response_of
 from fpt_ros.laws import MutableVector, Vector
@@ -58,10 +58,10 @@ def update(
         if newest - newest != 0.0:  # not finite
             state[first + GAP] += 1.0
         else:
-            if state[first + UNDECIDED] > 0.0:
-                decide(constants, state, first, members, newest)
-            follow_noise(constants, state, first, members, newest)
-            take(constants, state, first, members, newest)
+            undecided = state[first + UNDECIDED] > 0.0
+            if not undecided or not is_waiting(constants, state, first, members, newest):
+                follow_noise(constants, state, first, members, newest)
+                take(constants, state, first, members, newest)
             state[first + GAP] = 0.0
         best = state[believed + BEST]
         total = position = velocity = bend = 0.0
