@@ -4,6 +4,7 @@
 usually is an impulse, or a motion sets in. Both are kept until the next sample: members without
 this one, and members with it. The next one decides: an impulse returns to where the members
 without it predict, a motion does not. So an impulse leaves nothing behind but for one estimate.
+What is far beyond anything expected takes two more samples to be a motion: impulses come in pairs.
 
 **Which is believed meanwhile.** The one without it, if the sample is off by more than ``gate``
 times the usual, four times what a motion was off of late, and a tenth of what it moved of late in a
@@ -68,12 +69,12 @@ VERDICT = 0.1
 LEAST, MOST = 0.05, 1.0
 """How much nearer the members with the sample have to be for a motion, as a ratio of distances:
 where all verdicts were impulses, and where all were motions."""
+MOST_FAST = 3.0
 UNHEARD = 10.0
 """Beyond so many times the gate it takes three samples for a motion, where filters bear that."""
-ONWARD = 0.5
-"""And they are off the same way as before, by at least this share of that."""
-BACK = 0.5
-"""Within this share of the gate the next sample is where it was expected."""
+ONWARD, BACK = 0.5, 0.5
+"""A motion that slow members follow goes on: without the sample they are off the same way as
+before, by at least this share of that, and by more than this share of the gate."""
 LITTLE = 0.1
 """Share of the evidence of a sample that speaks of noise or an impulse."""
 UNUSUAL, WORSE = 6.0, 2.0
@@ -110,9 +111,10 @@ def is_waiting(
     share, surprise = state[first + MOTION], state[first + SURPRISE]
     gate = constants[1] * state[first + TYPICAL]
     now = newest - state[(believed if held else other) + MEMBERS + slowest]
-    is_motion = now * surprise > ONWARD * surprise * surprise and without > BACK * gate
-    is_motion = is_motion and with_it < (LEAST + (MOST - LEAST) * share) * without
+    goes_on = now * surprise > ONWARD * surprise * surprise and without > BACK * gate
     h = constants[HEADER + MEMBER * fastest + BANDWIDTH]
+    nearer = LEAST + ((MOST if h < CALM else MOST_FAST) - LEAST) * share
+    is_motion = with_it < nearer * without and (goes_on or h > CALM)
     if is_motion and held and state[first + UNDECIDED] == 1.0 and h < CALM:
         if abs(surprise) > UNHEARD * gate:
             state[first + UNDECIDED] = 2.0
