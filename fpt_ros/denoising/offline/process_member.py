@@ -27,6 +27,15 @@ STRONG = 1.4
 SLOW, ALONE = 0.75, 0.2
 """A coefficient above the one, and white noise beside above the other share of it, is a signal that
 wanders, or jumps, in white noise."""
+TOLD = 0.75
+"""Where white noise leaves so many degrees of freedom per sample to the signal, all noise is colour
+or there is none: the likelihood does not tell which."""
+NORMAL = 1.0
+"""Excess kurtosis of the innovations of noise at most: that of jumps is far more."""
+POSSIBLE = 0.3
+"""Share of the variance that coloured noise may have that is taken with less than full weight."""
+LIKELY = 0.2
+"""Probability below which the record stays as it is."""
 LOUDEST = 0.15
 """Share of the variance that coloured noise may have: more is a signal, as far as can be told."""
 
@@ -44,6 +53,7 @@ class Colour:
     coefficient: float
     sigma: float
     white: float
+    trust: float = 1.0
 
     @property
     def low(self) -> float:
@@ -62,6 +72,7 @@ class Smoothed:
         colour: of the noise; None: white.
         processes: those that were averaged, with their weights.
         samples: what they were fitted to.
+        whole: estimate if the colour is a part of the signal, shape (n,); None: it is not.
     """
 
     fit: mixture.Fit
@@ -69,6 +80,7 @@ class Smoothed:
     colour: Colour | None
     processes: tuple[tuple[Process, float], ...]
     samples: Samples
+    whole: Signal | None = None
 
 
 def _samples(y: Signal, w: Signal, begin: mixture.Start, dt: Signal) -> Samples:
@@ -78,21 +90,67 @@ def _samples(y: Signal, w: Signal, begin: mixture.Start, dt: Signal) -> Samples:
     return Samples(y, np.where(w > 0.9, profile, relative), dt, begin.least)
 
 
-def _coloured(samples: Samples, white: Process) -> Process | None:
-    """The best kernel with AR(1) noise, where that explains the record far better."""
-    kernels = [white.kernel, *(k for k in ("smooth", "smooth+tone") if k != white.kernel)]
-    found = min((fit(samples, kernel, True) for kernel in kernels[:2]), key=lambda p: p.bic)
+def _coloured(samples: Samples, white: Process) -> list[Process]:
+    """Kernels with AR(1) noise, where that explains the record far better."""
+    kernels = [white.kernel, *(k for k in ("smooth", "smooth+tone") if k != white.kernel)][:2]
+    tried = [fit(samples, kernel, True) for kernel in kernels]
+    found = min(tried, key=lambda p: p.bic)
     _, df, _ = white.smooth(samples)
     clear = -EVEN if df > IDLE * samples.count else CLEAR
-    if found.bic > white.bic - clear:
-        return None
     coefficient, sigma = math.exp(-1.0 / found.parts[-1, 2]), float(found.parts[-1, 1])
-    if found.bic > white.bic - CLEAR and sigma < STRONG:
-        return None
     if coefficient > SLOW and ALONE * sigma < 1.0 < sigma:
-        return None
+        return []
+    weak = found.bic > white.bic - CLEAR and sigma < STRONG
+    if found.bic <= white.bic - clear and not weak and _share(samples, found) < LOUDEST:
+        return [found]
+    if df < TOLD * samples.count and found.bic > white.bic - CLEAR:
+        return []
+    if "rough" not in kernels:
+        tried.append(fit(samples, "rough", True))
+    return _perhaps(samples, white, tried)
+
+
+def _share(samples: Samples, process: Process) -> float:
+    """Share of the variance that is noise."""
     known = samples.relative < UNKNOWN
-    return found if _total(found) ** 2 < LOUDEST * float(np.var(samples.y[known])) else None
+    return _total(process) ** 2 / float(np.var(samples.y[known]))
+
+
+def _perhaps(samples: Samples, white: Process, tried: list[Process]) -> list[Process]:
+    """``coloured`` with its probability, where the record is a walk without white noise."""
+    found, odds, loud = [], 0.0, 0.0
+    for one in tried:
+        f, df, _ = one.smooth(samples)
+        share = _share(samples, one)
+        if (
+            share > POSSIBLE
+            or df > IDLE * samples.count
+            or one.parts[-1, 1] < STRONG
+            or _kurtosis(samples, one, f) > NORMAL
+        ):
+            continue
+        own = len(one.x) - 2
+        cost = one.bic - white.bic - own * math.log(samples.count / max(df, 1.0))
+        own_odds = math.exp(min(-0.5 * cost, 50.0))
+        if share < LOUDEST:
+            odds += own_odds
+        else:
+            loud += own_odds
+        found.append(one)
+    odds += min(loud, 1.0)
+    trust = odds / (1.0 + odds)
+    if trust < LIKELY:
+        return []
+    return sorted((replace(one, trust=trust) for one in found), key=lambda p: p.bic)
+
+
+def _kurtosis(samples: Samples, coloured: Process, f: Signal) -> float:
+    memory = math.exp(-1.0 / coloured.parts[-1, 2])
+    r = samples.y - f
+    known = samples.relative < UNKNOWN
+    u = (r[1:] - memory * r[:-1])[known[1:] & known[:-1]]
+    u = u - u.mean()
+    return float(np.mean(u**4) / np.mean(u**2) ** 2) - 3.0
 
 
 def smooth(
@@ -121,9 +179,7 @@ def smooth(
     else:
         processes = sorted((fit(samples, kernel) for kernel in KERNELS), key=lambda p: p.bic)
     if colour and not known:
-        other = _coloured(samples, processes[0])
-        if other is not None:
-            processes = [other]
+        processes = _coloured(samples, processes[0]) or processes
     kept = [p for p in processes if p.bic < processes[0].bic + NEAR]
     f, df = _mean(kept, samples)
     noise = mixture.first_noise(centred, f, begin, present)
@@ -142,12 +198,14 @@ def smooth(
     found = None
     if best.coloured:
         found = Colour(
-            math.exp(-1.0 / best.parts[-1, 2]), float(best.parts[-1, 1] * best.s), best.s
+            math.exp(-1.0 / best.parts[-1, 2]), float(best.parts[-1, 1] * best.s), best.s,
+            best.trust,
         )
     weights = _weights(kept)
     return Smoothed(
         mixture.Fit(f + middle, z + middle, df, noise), best.kernel, found,
         tuple(zip(kept, map(float, weights), strict=True)), samples,
+        None if best.trust == 1.0 else best.whole(samples) + middle,
     )  # fmt: skip
 
 
