@@ -25,9 +25,10 @@ that explains more than it may by impulses can win against it.
 
 EM ends in the nearest of several optima, so general smoothers begin from several states: the record
 without what Hampel calls impulses, which keeps narrow peaks but leaves some impulses in; the same
-after a spline of one stiffness, which leaves none in but cuts peaks; the same after stairs, for the
-wavelet of jumps: a spline is far from the samples beside a jump, which then pass for impulses; and
-the record as it is, for oscillations so fast that Hampel flattens them.
+after a spline of one stiffness, which leaves none in but cuts peaks; the same after stairs, or
+after a smoother of narrow peaks, for the wavelet of jumps: a spline is far from the samples beside
+a jump, which then pass for impulses; and the record as it is, for oscillations so fast that Hampel
+flattens them.
 """
 
 import math
@@ -80,9 +81,11 @@ FROM_SPLINE: tuple[Shape, ...] = (
 about a level that wanders."""
 FROM_RECORD: tuple[Shape, ...] = ((0, 10.0, 10.0),)
 """For fast oscillations."""
-WAVELETS = {"haar": "haar", "sym8": "sym8", "stairs-haar": "haar"}
-"""By name: for many jumps, and for what no other describes; the last one begins from stairs."""
-FROM_STAIRS = "stairs-haar"
+WAVELETS = {"haar": "haar", "sym8": "sym8", "stairs-haar": "haar", "peaks-haar": "haar"}
+"""By name: for many jumps, and for what no other describes."""
+FROM_STAIRS, FROM_PEAKS, PEAKS = "stairs-haar", "peaks-haar", "hampel-2-3-None"
+"""Those that begin from stairs, and from a smoother that lets narrow peaks be; and that smoother's
+name."""
 
 QUIETER = 0.8
 """Share of the noise that was found, below which what sweeps leave is the noise: they had hidden
@@ -172,6 +175,7 @@ def _fits(
     begins = {"haar": spline.z, "sym8": spline.z}
     if constant is not None and not begin.sigma < begin.step:  # rounding makes stairs of slopes
         begins[FROM_STAIRS] = constant.z
+        begins[FROM_PEAKS] = found[PEAKS].z if PEAKS in found else begin.z
     for name, z in begins.items():
         if choice is None or name in choice.general:
             core = partial(ebayes.shrink, wavelet=WAVELETS[name])
@@ -203,7 +207,7 @@ def fit_all(
     """
     stairs = choice is None or bool(choice.special & {STEPS, POTTS})
     constant = None
-    if choice is None or stairs or FROM_STAIRS in choice.general:
+    if choice is None or stairs or choice.general & {FROM_STAIRS, FROM_PEAKS}:
         levels = potts.robust_start(y, begin.sigma)
         constant = mixture.fit(y, present, potts.smooth, begin, levels)
     named = _fits(y, present, begin, choice, constant)

@@ -191,7 +191,7 @@ def test_snr_before_is_exact_and_names_are_checked():
         signals.clean("sinus")
 
 
-@pytest.mark.parametrize("seed", [0, 3, 4])
+@pytest.mark.parametrize("seed", [1, 2, 4])
 def test_impulses_are_told_from_the_samples_beside_jumps(seed):
     rng, n = np.random.default_rng(seed), 512
     saw = (7 * np.arange(n) / n + 0.1) % 1 - 0.5
