@@ -121,6 +121,9 @@ def look(
         general = [*general, special[0]]
     coarse = beginning.step if beginning.begin.sigma < beginning.step else 0.0
     estimate, df, weights, inner = believed(y, present, judge, general, special, varies, coarse)
+    process = beginning.process
+    if process.colour is not None and process.whole is not None:
+        estimate = process.whole + process.colour.trust * (estimate - process.whole)
     return Look(Part(estimate, beginning, judge.noise.p, weights, inner), judge, df)
 
 

@@ -23,9 +23,9 @@ import numpy as np
 from scipy.ndimage import binary_dilation, binary_opening, gaussian_filter1d, median_filter
 
 from fpt_ros.denoising.offline import Mask, Signal
+from fpt_ros.denoising.offline.colour import LOUDEST
 from fpt_ros.denoising.offline.library import ON_CURVE, SWEEPS, TONES, Judge, Member
 from fpt_ros.denoising.offline.mixture import MOST_SHARE
-from fpt_ros.denoising.offline.process_member import LOUDEST
 from fpt_ros.denoising.offline.spectral_floor import flatness, level
 from fpt_ros.denoising.offline.whiteness import FLAT, is_white
 

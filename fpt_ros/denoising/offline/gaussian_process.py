@@ -70,6 +70,7 @@ class Process:
         bic: -2 ln L + (hyperparameters) ln N.
         coloured: whether the noise has an AR(1) component.
         x: logarithms of the hyperparameters, to begin from.
+        trust: probability that the AR(1) component is noise, and no part of the signal.
     """
 
     kernel: str
@@ -78,6 +79,7 @@ class Process:
     bic: float
     coloured: bool
     x: Signal
+    trust: float = 1.0
 
     @property
     def signal(self) -> Signal:
@@ -99,6 +101,12 @@ class Process:
         f = mean[:, self._places(derivative)].sum(axis=1)
         return f, float(leverage.sum()), self.s * np.sqrt(spread)
 
+    def whole(self, samples: Samples) -> Signal:
+        """Posterior mean of all components, that of the noise too, shape (n,)."""
+        every = np.ones(len(self.parts))
+        mean, _, _ = smooth(samples.y, samples.relative, samples.dt, self.parts, every)
+        return np.asarray(mean[:, replace(self, coloured=False)._places(0)].sum(axis=1))
+
     def _places(self, derivative: int) -> list[int]:
         """Index of the state of each component of the signal that is such a derivative."""
         places, k = [], 0
@@ -119,7 +127,8 @@ def peak(y: Signal) -> float:
 
 def refit(samples: Samples, process: Process) -> Process:
     """``process`` with hyperparameters sought from where they were."""
-    return fit(samples, process.kernel, process.coloured, process)
+    found = fit(samples, process.kernel, process.coloured, process)
+    return replace(found, trust=process.trust)
 
 
 def scaled(samples: Samples, process: Process) -> Process:

@@ -25,8 +25,10 @@ that explains more than it may by impulses can win against it.
 
 EM ends in the nearest of several optima, so general smoothers begin from several states: the record
 without what Hampel calls impulses, which keeps narrow peaks but leaves some impulses in; the same
-after a spline of one stiffness, which leaves none in but cuts peaks; and the record as it is, for
-oscillations so fast that Hampel flattens them.
+after a spline of one stiffness, which leaves none in but cuts peaks; the same after stairs, or
+after a smoother of narrow peaks, for the wavelet of jumps: a spline is far from the samples beside
+a jump, which then pass for impulses; and the record as it is, for oscillations so fast that Hampel
+flattens them.
 """
 
 import math
@@ -79,8 +81,11 @@ FROM_SPLINE: tuple[Shape, ...] = (
 about a level that wanders."""
 FROM_RECORD: tuple[Shape, ...] = ((0, 10.0, 10.0),)
 """For fast oscillations."""
-WAVELETS = ("haar", "sym8")
-"""For many jumps, and for what no other describes."""
+WAVELETS = {"haar": "haar", "sym8": "sym8", "stairs-haar": "haar", "peaks-haar": "haar"}
+"""By name: for many jumps, and for what no other describes."""
+FROM_STAIRS, FROM_PEAKS, PEAKS = "stairs-haar", "peaks-haar", "hampel-2-3-None"
+"""Those that begin from stairs, and from a smoother that lets narrow peaks be; and that smoother's
+name."""
 
 QUIETER = 0.8
 """Share of the noise that was found, below which what sweeps leave is the noise: they had hidden
@@ -146,7 +151,11 @@ class Judge:
 
 
 def _fits(
-    y: Signal, present: Mask, begin: mixture.Start, choice: Choice | None
+    y: Signal,
+    present: Mask,
+    begin: mixture.Start,
+    choice: Choice | None,
+    constant: mixture.Fit | None,
 ) -> dict[str, mixture.Fit]:
     """The fits of the general smoothers by their names, that of the spline first."""
     rounds = mixture.ROUNDS if choice is None else mixture.FEW_ROUNDS
@@ -163,10 +172,14 @@ def _fits(
             name = f"{start}-{order}-{width:g}-{pitch}"
             if choice is None or name in choice.general:
                 found[name] = fit((order, width, pitch), z)
-    for wavelet in WAVELETS:
-        if choice is None or wavelet in choice.general:
-            core = partial(ebayes.shrink, wavelet=wavelet)
-            found[wavelet] = mixture.fit(y, present, core, begin, spline.z, mixture.FEW_ROUNDS)
+    begins = {"haar": spline.z, "sym8": spline.z}
+    if constant is not None and not begin.sigma < begin.step:  # rounding makes stairs of slopes
+        begins[FROM_STAIRS] = constant.z
+        begins[FROM_PEAKS] = found[PEAKS].z if PEAKS in found else begin.z
+    for name, z in begins.items():
+        if choice is None or name in choice.general:
+            core = partial(ebayes.shrink, wavelet=WAVELETS[name])
+            found[name] = mixture.fit(y, present, core, begin, z, mixture.FEW_ROUNDS)
     return found
 
 
@@ -192,15 +205,17 @@ def fit_all(
         white: whether its mixture is that of white noise.
         choice: members that are fitted; None: all.
     """
-    named = _fits(y, present, begin, choice)
+    stairs = choice is None or bool(choice.special & {STEPS, POTTS})
+    constant = None
+    if choice is None or stairs or choice.general & {FROM_STAIRS, FROM_PEAKS}:
+        levels = potts.robust_start(y, begin.sigma)
+        constant = mixture.fit(y, present, potts.smooth, begin, levels)
+    named = _fits(y, present, begin, choice, constant)
     fits = list(named.values())
     special = [_member(PROCESS, process), Member(UNCHANGED, y, float(present.sum()))]
     if white:
         fits.append(process)
-    constant = None
-    if choice is None or choice.special & {STEPS, POTTS}:
-        levels = potts.robust_start(y, begin.sigma)
-        constant = mixture.fit(y, present, potts.smooth, begin, levels)
+    if stairs and constant is not None:
         fits.append(constant)
     tones = []
     rounded = begin.sigma < begin.step
@@ -216,7 +231,7 @@ def fit_all(
     noises = [(f.noise.p, f.noise.s, f.noise.t, f.noise.m) for f in fits]
     p, s, t, m = (float(x) for x in np.median(noises, axis=0))
     judge = Judge(y, present, mixture.Noise(p, s, t, m, begin.profile))
-    if constant is not None:
+    if stairs and constant is not None:
         jumps = int(np.count_nonzero(np.diff(constant.estimate)))
         mean, df = steps.smooth(y, present, constant.noise, jumps)
         special += [_member(POTTS, constant), Member(STEPS, mean, max(df, STEP_DF * (jumps + 1)))]

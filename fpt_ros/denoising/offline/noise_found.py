@@ -2,7 +2,7 @@
 
 In this order: the step (:mod:`quantisation`), impulses (:func:`mixture.start`), the profile of the
 level (:mod:`spectral_floor`), and the colour, for which Gaussian processes with white noise compete
-against the same with AR(1) noise beside (:mod:`process_member`).
+against the same with AR(1) noise beside (:mod:`colour`).
 
 Members that know white noise alone see coloured noise as white noise that is as strong at low
 frequencies, where a signal is: sigma sqrt((1 + c) / (1 - c)) for the coefficient c.

@@ -5,51 +5,18 @@ Kernels are fitted where no impulse is; then EM separates impulses as for the ot
 of all kernels are averaged with the weights exp(-BIC / 2).
 """
 
-import math
 from dataclasses import dataclass, replace
 
 import numpy as np
 
 from fpt_ros.denoising.offline import Mask, Signal, mixture
+from fpt_ros.denoising.offline.colour import Colour, all_noise, believed, colour_of
 from fpt_ros.denoising.offline.gaussian_process import KERNELS, Process, Samples, fit, refit, scaled
 from fpt_ros.denoising.offline.kalman import UNKNOWN
 
 ROUNDS = 3
 NEAR = 12.0
 """Kernels within this BIC of the best are kept."""
-CLEAR = 0.0
-"""BIC by which coloured noise has to be better than white noise."""
-IDLE, EVEN = 0.3, 6.0
-"""Where white noise leaves so many degrees of freedom per sample to the signal, the record hardly
-changes; then coloured noise is taken if it is as good to within this BIC."""
-STRONG = 1.4
-"""In units of the white noise beside it: weaker coloured noise has to be better than white."""
-SLOW, ALONE = 0.75, 0.2
-"""A coefficient above the one, and white noise beside above the other share of it, is a signal that
-wanders, or jumps, in white noise."""
-LOUDEST = 0.15
-"""Share of the variance that coloured noise may have: more is a signal, as far as can be told."""
-
-
-@dataclass(frozen=True)
-class Colour:
-    """AR(1) noise beside the white one.
-
-    Attributes:
-        coefficient: of one sample on the one before.
-        sigma: standard deviation, unit of y.
-        white: standard deviation of the white noise beside it, unit of y.
-    """
-
-    coefficient: float
-    sigma: float
-    white: float
-
-    @property
-    def low(self) -> float:
-        """Standard deviation of the white noise that is as strong at low frequencies."""
-        c = self.coefficient
-        return math.hypot(self.white, self.sigma * math.sqrt((1.0 + c) / (1.0 - c)))
 
 
 @dataclass(frozen=True)
@@ -62,6 +29,7 @@ class Smoothed:
         colour: of the noise; None: white.
         processes: those that were averaged, with their weights.
         samples: what they were fitted to.
+        whole: estimate if the colour were a part of the signal, shape (n,); None: it is none.
     """
 
     fit: mixture.Fit
@@ -69,6 +37,7 @@ class Smoothed:
     colour: Colour | None
     processes: tuple[tuple[Process, float], ...]
     samples: Samples
+    whole: Signal | None = None
 
 
 def _samples(y: Signal, w: Signal, begin: mixture.Start, dt: Signal) -> Samples:
@@ -78,29 +47,12 @@ def _samples(y: Signal, w: Signal, begin: mixture.Start, dt: Signal) -> Samples:
     return Samples(y, np.where(w > 0.9, profile, relative), dt, begin.least)
 
 
-def _coloured(samples: Samples, white: Process) -> Process | None:
-    """The best kernel with AR(1) noise, where that explains the record far better."""
-    kernels = [white.kernel, *(k for k in ("smooth", "smooth+tone") if k != white.kernel)]
-    found = min((fit(samples, kernel, True) for kernel in kernels[:2]), key=lambda p: p.bic)
-    _, df, _ = white.smooth(samples)
-    clear = -EVEN if df > IDLE * samples.count else CLEAR
-    if found.bic > white.bic - clear:
-        return None
-    coefficient, sigma = math.exp(-1.0 / found.parts[-1, 2]), float(found.parts[-1, 1])
-    if found.bic > white.bic - CLEAR and sigma < STRONG:
-        return None
-    if coefficient > SLOW and ALONE * sigma < 1.0 < sigma:
-        return None
-    known = samples.relative < UNKNOWN
-    return found if _total(found) ** 2 < LOUDEST * float(np.var(samples.y[known])) else None
-
-
 def smooth(
     y: Signal,
     present: Mask,
     begin: mixture.Start,
     dt: Signal,
-    colour: bool = True,
+    look: bool = True,
     known: tuple[tuple[Process, float], ...] = (),
 ) -> Smoothed:
     """The robust mean of the processes.
@@ -110,7 +62,7 @@ def smooth(
         present: False where a sample is missing.
         begin: of :func:`mixture.start`.
         dt: steps of time before each sample [mean step], shape (n,).
-        colour: whether coloured noise is looked for.
+        look: whether coloured noise is looked for.
         known: processes to take as they are but for their scale; empty: all are fitted.
     """
     middle = float(np.mean(begin.z[present]))
@@ -120,14 +72,12 @@ def smooth(
         processes = [scaled(samples, process) for process, _ in known]
     else:
         processes = sorted((fit(samples, kernel) for kernel in KERNELS), key=lambda p: p.bic)
-    if colour and not known:
-        other = _coloured(samples, processes[0])
-        if other is not None:
-            processes = [other]
+    if look and not known:
+        processes = believed(samples, processes[0]) or processes
     kept = [p for p in processes if p.bic < processes[0].bic + NEAR]
     f, df = _mean(kept, samples)
     noise = mixture.first_noise(centred, f, begin, present)
-    noise = replace(noise, s=max(_total(kept[0]), begin.least))
+    noise = replace(noise, s=max(all_noise(kept[0]), begin.least))
     for step in range(ROUNDS):
         w = noise.inlier(centred - f, present)
         samples = _samples(centred, w, begin, dt)
@@ -136,24 +86,15 @@ def smooth(
             kept = [again(samples, p) for p in kept]
         f, df = _mean(kept, samples)
         noise = mixture.next_noise(centred, f, f + w * (centred - f), w, df, present, begin, noise)
-        noise = replace(noise, s=max(_total(kept[0]), begin.least))
+        noise = replace(noise, s=max(all_noise(kept[0]), begin.least))
     z = f + noise.inlier(centred - f, present) * (centred - f)
     best = min(kept, key=lambda p: p.bic)
-    found = None
-    if best.coloured:
-        found = Colour(
-            math.exp(-1.0 / best.parts[-1, 2]), float(best.parts[-1, 1] * best.s), best.s
-        )
     weights = _weights(kept)
     return Smoothed(
-        mixture.Fit(f + middle, z + middle, df, noise), best.kernel, found,
+        mixture.Fit(f + middle, z + middle, df, noise), best.kernel, colour_of(best),
         tuple(zip(kept, map(float, weights), strict=True)), samples,
+        None if best.trust == 1.0 else best.whole(samples) + middle,
     )  # fmt: skip
-
-
-def _total(process: Process) -> float:
-    """Standard deviation of all its noise."""
-    return process.s * (math.hypot(1.0, process.parts[-1, 1]) if process.coloured else 1.0)
 
 
 def _weights(processes: list[Process]) -> Signal:

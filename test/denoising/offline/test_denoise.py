@@ -189,3 +189,13 @@ def test_snr_before_is_exact_and_names_are_checked():
     assert f.std() == pytest.approx(0.62521)
     with pytest.raises(BadInput, match="none of the test signals: sines"):
         signals.clean("sinus")
+
+
+@pytest.mark.parametrize("seed", [1, 2, 4])
+def test_impulses_are_told_from_the_samples_beside_jumps(seed):
+    rng, n = np.random.default_rng(seed), 512
+    saw = (7 * np.arange(n) / n + 0.1) % 1 - 0.5
+    saw = saw / np.std(saw)
+    impulse = rng.random(n) < 0.04
+    y = saw + 0.18 * rng.standard_normal(n) + 2.5 * impulse * rng.choice([-1.0, 1.0], n)
+    assert signals.snr_db(saw, denoise(y).estimate) - signals.snr_db(saw, y) > 12.0

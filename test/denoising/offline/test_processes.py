@@ -5,7 +5,14 @@ import math
 import numpy as np
 import pytest
 
-from fpt_ros.denoising.offline import components, gaussian_process, kalman, mixture, process_member
+from fpt_ros.denoising.offline import (
+    colour,
+    components,
+    gaussian_process,
+    kalman,
+    mixture,
+    process_member,
+)
 
 PARTS = np.array(
     [
@@ -118,6 +125,43 @@ def test_coloured_noise_is_told_from_a_smooth_signal(c):
     assert found.colour is not None
     assert found.colour.coefficient == pytest.approx(c, abs=0.15)
     assert np.mean((found.fit.estimate - f) ** 2) < 0.5 * np.mean(e**2)
+
+
+def smooth_motion_in_strong_colour(seed):
+    """A smooth signal of variance 1, and AR(1) noise of 0.9 at 10 dB."""
+    rng, n = np.random.default_rng(seed), 512
+    t = np.arange(n) / n
+    f = np.cos(2 * np.pi * 1.5 * t) + 0.5 * np.sin(2 * np.pi * 4 * t)
+    noise = rng.standard_normal(n + 200)
+    for i in range(1, len(noise)):
+        noise[i] += 0.9 * noise[i - 1]
+    noise = noise[200:]
+    return f, f + noise * (0.316 * np.std(f) / np.std(noise))
+
+
+def test_a_walk_on_a_smooth_signal_is_noise_of_some_probability():
+    trusts = []
+    for seed in range(12):
+        f, y = smooth_motion_in_strong_colour(seed)
+        present = np.ones(len(y), bool)
+        found = process_member.smooth(y, present, mixture.start(y, present), np.ones(len(y)))
+        if found.whole is not None:
+            trusts.append(found.colour.trust)
+            # if the walk is signal there is nothing to take away
+            assert np.mean((found.whole - y) ** 2) < 0.1 * np.mean((y - f) ** 2)
+            mean = found.whole + trusts[-1] * (found.fit.estimate - found.whole)
+            assert np.mean((mean - f) ** 2) < np.mean((y - f) ** 2)
+    assert trusts
+    assert all(colour.LIKELY <= trust <= 1.0 for trust in trusts)
+
+
+@pytest.mark.parametrize("sigma", [1e-3, 0.03])
+def test_jumps_without_white_noise_are_no_colour(sigma):
+    rng, n = np.random.default_rng(8), 512
+    y = np.repeat(rng.standard_normal(16), 32) + sigma * rng.standard_normal(n)
+    present = np.ones(n, bool)
+    found = process_member.smooth(y, present, mixture.start(y, present), np.ones(n))
+    assert found.colour is None
 
 
 def test_white_noise_has_no_colour():
