@@ -66,10 +66,10 @@ MOSTLY = 0.7
 """Where the share of motions among the verdicts is less, impulses are what surprises."""
 VERDICT = 0.1
 """Weight of the newest verdict in that share."""
-LEAST, MOST = 0.05, 1.0
-"""How much nearer the members with the sample have to be for a motion, as a ratio of distances:
-where all verdicts were impulses, and where all were motions."""
-MOST_FAST = 3.0
+LEAST, MOST, MOST_FAST = 0.05, 1.0, 1.5
+"""How near the members with the sample have to be for a motion, as a share of how near those
+without it are: where all verdicts were impulses; where all were motions; and that of fast members,
+for whom a sample of a motion that is dropped is the greater loss."""
 UNHEARD = 10.0
 """Beyond so many times the gate it takes three samples for a motion, where filters bear that."""
 ONWARD, BACK = 0.5, 0.5
@@ -115,12 +115,12 @@ def is_waiting(
     h = constants[HEADER + MEMBER * fastest + BANDWIDTH]
     nearer = LEAST + ((MOST if h < CALM else MOST_FAST) - LEAST) * share
     is_motion = with_it < nearer * without and (goes_on or h > CALM)
-    if is_motion and held and state[first + UNDECIDED] == 1.0 and h < CALM:
-        if abs(surprise) > UNHEARD * gate:
-            state[first + UNDECIDED] = 2.0
-            correct(constants, state, first, other, members, newest, 0.0)
-            note(state, first, newest)
-            return True
+    is_unheard = abs(surprise) > UNHEARD * gate and h < CALM
+    if is_motion and held and is_unheard and state[first + UNDECIDED] == 1.0:
+        state[first + UNDECIDED] = 2.0
+        correct(constants, state, first, other, members, newest, 0.0)
+        note(state, first, newest)
+        return True
     state[first + MOTION] += VERDICT * ((1.0 if is_motion else 0.0) - share)
     if is_motion and state[first + PEAK] < abs(surprise):
         state[first + PEAK] = abs(surprise)
