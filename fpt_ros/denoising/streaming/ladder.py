@@ -42,7 +42,7 @@ REST, LEVEL, FORGETS, PRICE, AGAINST, BANDWIDTH, SPREAD = range(4, MEMBER)
 
 # places in the memory of a coordinate: shared ones, then two hypotheses, the believed one first
 LAST, BEFORE, LSB, UNEVEN, COUNT, GAP, SPEED, TYPICAL, SLOWEST, FASTEST = range(10)
-UNDECIDED, HELD, DOUBTS, SURPRISE, PEAK, MOTION, QUICK, SLOWER, SHARED = range(10, 19)
+UNDECIDED, HELD, DOUBTS, SURPRISE, PEAK, MOTION, QUICK, SLOWER, RESTLESS, SHARED = range(10, 20)
 # places in a hypothesis: of all members, then vectors over them, the first four of them the states
 SIGMA, BEST, MEMBERS = range(3)
 EVIDENCE, MEDIAN, COST, EACH = range(4, 8)

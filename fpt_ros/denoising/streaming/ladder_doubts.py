@@ -36,6 +36,7 @@ from fpt_ros.denoising.streaming.ladder import (
     MOTION,
     PEAK,
     QUICK,
+    RESTLESS,
     SHARED,
     SIGMA,
     SLOWER,
@@ -80,6 +81,8 @@ LITTLE = 0.1
 UNUSUAL, WORSE = 6.0, 2.0
 """It does so where the fastest member is off by more than so many standard deviations, and by so
 many times what the slowest of the usual ones is off."""
+LASTS = 4.0
+CLOSE = 0.0
 QUICKLY = 0.14
 """Relative step of the quick medians."""
 RUNGS = 4
@@ -172,6 +175,11 @@ def _trust(
     usual = state[x + a + MEDIAN * members]
     level = off * constants[HEADER + MEMBER * a + LEVEL]
     is_noise = state[first + COUNT] >= SETTLING and level > UNUSUAL * usual and off > WORSE * slow
+    if is_noise:
+        state[first + RESTLESS] = LASTS
+    elif state[first + RESTLESS] > 0.0:
+        state[first + RESTLESS] -= 1.0
+        is_noise = off > CLOSE * slow
     return LITTLE if is_noise else 1.0
 
 
