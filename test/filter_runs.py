@@ -4,7 +4,8 @@ import math
 
 import numpy as np
 
-from fpt_ros.denoising.streaming import ORDER
+from fpt_ros.denoising.streaming import ORDER, Update
+from fpt_ros.engine import compiled
 from fpt_ros.parameters import resolve
 
 DT = 1e-3
@@ -33,6 +34,24 @@ def run(law, q, dt=DT, vector=list, update=None, **given):
         step(constants, state, dt, vector(q[k].tolist()), v, *results)
         out[k] = results
     return out
+
+
+def filtered(law, q, dt=DT, **given):
+    """Estimates of one coordinate, shape (samples, 3), by machine code."""
+    machine = compiled.law(law.update, Update)
+    return run(law, q, dt, np.array, machine, **given)[:, :, 0]
+
+
+def ended(law, q, dt=DT):
+    """Constants and memory after a record of one coordinate."""
+    constants = np.array(constants_of(law, 1, dt))
+    state = np.zeros(law.state_size(constants, 1))
+    law.start(constants, state, q[:1], [math.nan])
+    machine = compiled.law(law.update, Update)
+    out = np.zeros((3, 1))
+    for each in q[1:]:
+        machine(constants, state, dt, np.array([each]), np.array([math.nan]), *out)
+    return constants, state
 
 
 def two_sines(samples, dt=DT):

@@ -17,14 +17,21 @@ motion has done before, and not for longer than they remember.
 fastest member is off more than usual and more than the slower ones: a motion that sets in is what
 the fastest one expects, noise and impulses are not.
 
-**Noise that grows.** Two fast members have quick medians as well. Where these agree, as they do in
-white noise and not in motion, and are twice sigma, the slow medians are lifted to them.
+**Noise that grows.** Two fast members have quick medians as well (``QUICK``, ``SLOWER``). Where
+these agree, as they do in white noise and not in motion, and are twice sigma, the slow medians are
+lifted to them, and the evidence, which was in units of too small a sigma, shrinks.
+
+In the memory: ``UNDECIDED`` counts the samples kept back since a fork, 0 where there is none;
+``HELD``, whether the believed hypothesis is the one without them; ``SURPRISE``, how far the first
+of them was off; ``DOUBTS``, odd samples in a row; ``PEAK``, the greatest surprise of a motion of
+late; ``RESTLESS``, for how many samples more noise is suspected.
 """
 
 from fpt_ros.denoising.streaming.ladder import (
     BANDWIDTH,
     COUNT,
     DOUBTS,
+    EVIDENCE,
     FASTEST,
     GAP,
     HEADER,
@@ -82,7 +89,7 @@ UNUSUAL, WORSE = 6.0, 2.0
 """It does so where the fastest member is off by more than so many standard deviations, and by so
 many times what the slowest of the usual ones is off."""
 LASTS = 4.0
-CLOSE = 0.0
+"""Samples after such a one that are taken for noise as well."""
 QUICKLY = 0.14
 """Relative step of the quick medians."""
 RUNGS = 4
@@ -157,9 +164,11 @@ def follow_noise(
     slower = _quick(state, first + SLOWER, level)
     least = quick if quick < slower else slower
     if slower < AGREE * quick and least > MUCH * state[believed + SIGMA]:
-        for m in range(x + MEDIAN * members, x + (MEDIAN + 1) * members):
-            if state[m] < least:
-                state[m] = least
+        smaller = state[believed + SIGMA] / least
+        for m in range(x, x + members):
+            state[m + EVIDENCE * members] *= smaller * smaller
+            if state[m + MEDIAN * members] < least:
+                state[m + MEDIAN * members] = least
         state[believed + SIGMA] = least
 
 
@@ -179,7 +188,7 @@ def _trust(
         state[first + RESTLESS] = LASTS
     elif state[first + RESTLESS] > 0.0:
         state[first + RESTLESS] -= 1.0
-        is_noise = off > CLOSE * slow
+        is_noise = True
     return LITTLE if is_noise else 1.0
 
 

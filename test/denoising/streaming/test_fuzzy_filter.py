@@ -182,8 +182,8 @@ def test_where_it_wins_and_where_it_loses():
         assert np.all(errors(FUZZY, clean, q) < ratio * errors(fixed, clean, q))
     assert np.all(errors(FUZZY, clean, hit) < 1.3 * errors(FUZZY, clean, steady))
     assert np.all(errors(fixed, clean, hit) > 5.0 * errors(FUZZY, clean, hit))
-    # a jump of the noise misleads the ladder of Kalman filters, of which it loses in steady noise
-    assert np.all(errors(adaptive, clean, changing) > 10.0 * errors(FUZZY, clean, changing))
+    # it loses to the ladder of Kalman filters in steady noise, and wins nothing by its changes
+    assert np.all(errors(adaptive, clean, changing) < errors(FUZZY, clean, changing))
     assert np.all(errors(adaptive, clean, steady) < errors(FUZZY, clean, steady))
     # it has to find out what the fixed window happens to suit
     assert np.all(errors(fixed, clean, changing) < errors(FUZZY, clean, changing))
