@@ -74,7 +74,7 @@ MOSTLY = 0.7
 """Where the share of motions among the verdicts is less, impulses are what surprises."""
 VERDICT = 0.1
 """Weight of the newest verdict in that share."""
-LEAST, MOST, MOST_FAST = 0.05, 1.0, 1.5
+LEAST, MOST, MOST_FAST = 0.05, 1.0, 3.0
 """How near the members with the sample have to be for a motion, as a share of how near those
 without it are: where all verdicts were impulses; where all were motions; and that of fast members,
 for whom a sample of a motion that is dropped is the greater loss."""
