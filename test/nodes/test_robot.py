@@ -29,8 +29,9 @@ FAULTS = ("--jitter", "0.2", "--lost", "0.01", "--no-velocity", "--best-effort")
 ENOUGH = 450.0
 """Cycles a second: below it the machine is too busy for 500 Hz."""
 
-LOST = 2.0
-"""rms [rad] of an arm that follows, if badly; of those that were lost it was 13 to 1,000."""
+LOST = 6.0
+"""rms [rad] of an arm that follows, if badly: 3.0 on a machine that took 18 minutes for the tests;
+of those that were lost it was 13 to 1,000."""
 
 
 @pytest.fixture
