@@ -43,7 +43,8 @@ def browser(folder: Path) -> Iterator["Page"]:
         address = next(
             line.split()[-1] for line in process.stderr if line.startswith("DevTools listening")
         )
-        with connect(address, max_size=None) as socket:
+        # no keepalive: a busy machine may hold up the answer for longer than it waits
+        with connect(address, max_size=None, ping_interval=None) as socket:
             yield Page(socket)
     finally:
         process.kill()

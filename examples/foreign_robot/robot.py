@@ -102,14 +102,21 @@ class Robot(Node):
             self.published += 1
 
     def run(self):
-        """Until the process is told to end, or time is over."""
+        """Until the process is told to end, or time is over.
+
+        States that it is too late for are left out, and it listens before each one: who only
+        catches up with what is due hears no command meanwhile.
+        """
         period, options = 1.0 / self.options.rate, self.options
         started = due = time.monotonic()
         while rclpy.ok() and time.monotonic() - started < options.duration:
-            due += period
+            due = max(due + period, time.monotonic())
             late = due + options.jitter * period * self.random.uniform(-0.5, 0.5)
-            while (left := late - time.monotonic()) > 0.0:
+            left = late - time.monotonic()
+            while left > 0.0:
                 rclpy.spin_once(self, timeout_sec=left)
+                left = late - time.monotonic()
+            rclpy.spin_once(self, timeout_sec=0.0)
             self.tell()
 
 

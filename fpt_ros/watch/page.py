@@ -49,10 +49,15 @@ REST = 14
 """Times as long as it has drawn a picture a browser waits for the next one: it may share its cores
 with the loop, and without a graphics card drawing takes a tenth of them even so."""
 
+LONGEST_REST = 3000
+"""Milliseconds: on a busy machine most of the time of drawing is waiting, which takes nothing from
+anybody, and what a user asked for is answered with the next picture."""
+
 DRAWN = f"""
 const began = performance.now();
 requestAnimationFrame(() => setTimeout(() => {{
-  setTimeout(() => {{ drawn.data = sent.data }}, {REST} * (performance.now() - began));
+  const rest = Math.min({REST} * (performance.now() - began), {LONGEST_REST});
+  setTimeout(() => {{ drawn.data = sent.data }}, rest);
 }}));
 """
 """In the browser: it says so when it has drawn what was sent, and rested."""

@@ -3,10 +3,12 @@
 import importlib.util
 import itertools
 import math
+import os
 import random
 import signal
 import subprocess
 import sys
+from contextlib import suppress
 from pathlib import Path
 
 import numpy as np
@@ -29,9 +31,8 @@ FAULTS = ("--jitter", "0.2", "--lost", "0.01", "--no-velocity", "--best-effort")
 ENOUGH = 450.0
 """Cycles a second: below it the machine is too busy for 500 Hz."""
 
-LOST = 6.0
-"""rms [rad] of an arm that follows, if badly: 3.0 on a machine that took 18 minutes for the tests;
-of those that were lost it was 13 to 1,000."""
+LOST = 2.0
+"""rms [rad] of an arm that follows, if badly; of those that were lost it was 13 to 1,000."""
 
 
 @pytest.fixture
@@ -41,6 +42,16 @@ def example(monkeypatch):
     robot = importlib.util.module_from_spec(spec)
     spec.loader.exec_module(robot)
     return robot
+
+
+@pytest.fixture
+def urgent():
+    """Robot and loop go before all else, as on the computer of a robot, where that is allowed."""
+    before = os.getpriority(os.PRIO_PROCESS, 0)
+    with suppress(PermissionError):
+        os.setpriority(os.PRIO_PROCESS, 0, -15)  # what is started from here inherits it
+    yield
+    os.setpriority(os.PRIO_PROCESS, 0, before)
 
 
 @pytest.fixture
@@ -134,6 +145,7 @@ def recorded_error(bag):
     return settled(np.transpose(errors), (common - common[0]) * 1e-9)
 
 
+@pytest.mark.usefixtures("urgent")
 def test_a_robot_of_five_joints_with_jitter_losses_and_no_velocity(tmp_path, example, start_robot):
     start_robot(*FAULTS)
     bag = tmp_path / "bag"

@@ -9,7 +9,7 @@ from contextlib import contextmanager
 
 import pytest
 import samples
-from browser import browser
+from browser import PATIENCE, browser
 from command import forked_fpt, start_fpt
 from rcl_interfaces.msg import ParameterEvent
 from watcher import watcher
@@ -48,10 +48,8 @@ def status(url):
 def refuses_strangers(address):
     for each in ("", "?token=a", "metadata", "autoload.js?bokeh-autoload-element=a"):
         assert status(address + each) == 403
-    with (
-        connect(f"ws{address[4:]}ws", subprotocols=["bokeh", "a.b"]) as socket,
-        pytest.raises(ConnectionClosed),
-    ):
+    options = {"subprotocols": ["bokeh", "a.b"], "open_timeout": PATIENCE}
+    with connect(f"ws{address[4:]}ws", **options) as socket, pytest.raises(ConnectionClosed):
         socket.recv()
 
 
@@ -119,8 +117,9 @@ def next_change(graph, found, process):
 
 
 def test_the_page_joins_a_graph_steers_it_and_waits_for_the_next(tmp_path):
-    # in lockstep: on a busy machine late commands would lose the plant
-    run = ("run", "tora", "--composed", "--duration", 10_000, "--namespace", NAMESPACE)
+    # 10 cycles a second: the page goes behind the loop, and a busy machine has no time for both;
+    # and late commands could lose the plant
+    run = ("run", "tora", "--composed", "--speed", 0.01, "--namespace", NAMESPACE)
     first = start_fpt(*run)
     with watching(tmp_path) as (page, url), watcher() as graph, changes(graph) as found:
         refuses_strangers(url.partition("?")[0])
