@@ -22,6 +22,13 @@ PARAMETERS = (
         above=0.0,
         maximum=30.0,
     ),
+    Parameter(
+        "kept",
+        "share of an acceleration that is kept at least where noise explains it; of the ladder",
+        0.95,
+        minimum=0.0,
+        maximum=1.0,
+    ),
 )
 
 GATE = 5.0
@@ -35,36 +42,43 @@ TEMPERATURE = 3.0
 PRIOR = 9.0
 """Evidence that a step to the faster neighbour has to bring, times 1 - K: the noise of its
 acceleration is several times as great."""
+FOLLOWED, MOST_FOLLOWED = 0.8, 0.5
+"""Weight of the newest sample in the mean square of the acceleration, over the bandwidth; and at
+most."""
 
 # places among the constants: shared ones, then by member four gains and these
-HEADER, MEMBER = 4, 11
-REST, LEVEL, FORGETS, PRICE, AGAINST, BANDWIDTH, SPREAD = range(4, MEMBER)
+HEADER, MEMBER = 5, 13
+REST, LEVEL, FORGETS, PRICE, AGAINST, BANDWIDTH, SPREAD, NOISE, FOLLOWS = range(4, MEMBER)
 
 # places in the memory of a coordinate: shared ones, then two hypotheses, the believed one first
 LAST, BEFORE, LSB, UNEVEN, COUNT, GAP, SPEED, TYPICAL, SLOWEST, FASTEST = range(10)
-UNDECIDED, HELD, DOUBTS, SURPRISE, PEAK, MOTION, QUICK, SLOWER, RESTLESS, SHARED = range(10, 20)
+UNDECIDED, HELD, DOUBTS, SURPRISE, PEAK, MOTION, QUICK, SLOWER, RESTLESS = range(10, 19)
+POWER, LIKELY, SHARED = 19, 20, 21
 # places in a hypothesis: of all members, then vectors over them, the first four of them the states
 SIGMA, BEST, MEMBERS = range(3)
 EVIDENCE, MEDIAN, COST, EACH = range(4, 8)
 
 
-def innovation_gain(gains: NDArray[np.float64]) -> float:
-    """Variance of the innovation in white noise of variance 1, and with no motion."""
+def noise_gains(gains: NDArray[np.float64]) -> tuple[float, float]:
+    """Variances of the innovation and of the third state in white noise of variance 1, at rest."""
     size = len(gains)
     F = np.array([[math.comb(j, i) for j in range(size)] for i in range(size)], dtype=float)
     A, g = F - np.outer(F @ gains, np.eye(size)[0]), F @ gains  # of the prediction's error
     P = np.outer(g, g)
     for _ in range(40):  # the sum of A^k g g' A'^k, by doubling
         P, A = P + A @ P @ A.T, A @ A
-    return 1.0 + float(P[0, 0])
+    corrected = np.eye(size) - np.outer(gains, np.eye(size)[0])
+    C = corrected @ P @ corrected.T + np.outer(gains, gains)
+    return 1.0 + float(P[0, 0]), float(C[2, 2])
 
 
 def prepare(values: Values, n: int, dt: float) -> tuple[float, ...]:
-    """Constants: members, gate, order of the response, 1 / dt; then those of each member.
+    """Constants: members, gate, order of the response, 1 / dt, kept; then those of each member.
 
     These are four gains, 1 - K, the factor of |e| for sigma, the share of the evidence that a
     sample forgets, the price of its innovation's variance over that of the next, the prior against
-    that one, the bandwidth, and the inverse of the factor for sigma.
+    that one, the bandwidth, the inverse of the factor for sigma, the variance of the third state in
+    noise of variance 1, and the weight of the newest sample in the mean square of that state.
     """
     slowest, fastest = number(values, "slowest"), number(values, "fastest")
     if slowest >= fastest:
@@ -74,13 +88,15 @@ def prepare(values: Values, n: int, dt: float) -> tuple[float, ...]:
     price = [-math.log1p(-float(g[0])) for g in gains]
     order = float(integer(values, ORDER.name))
     constants = [float(len(ladder)), number(values, "gate") or GATE, order, 1.0 / dt]
+    constants.append(number(values, "kept"))
     for h, g, own, faster in zip(ladder, gains, price, [*price[1:], price[-1]], strict=True):
         rest = 1.0 - float(g[0])
-        level = 1.0 / (0.6745 * math.sqrt(innovation_gain(g)))
+        innovation, bend = noise_gains(g)
+        level = 1.0 / (0.6745 * math.sqrt(innovation))
         forgets = min(FORGOTTEN * float(h), MOST_FORGOTTEN)
         against = PRIOR * rest if h < ladder[-1] else 0.0
         constants += [*map(float, g), rest, level, forgets, own - faster, against, float(h)]
-        constants.append(1.0 / level)
+        constants += [1.0 / level, bend, min(FOLLOWED * float(h), MOST_FOLLOWED)]
     return tuple(constants)
 
 
@@ -101,9 +117,10 @@ def memory(members: int) -> int:
 
     ``LAST`` and ``BEFORE``: samples; ``LSB``, ``UNEVEN``: step of rounding, and how far second
     differences are from multiples of it; ``COUNT``, ``GAP``: samples, and missing ones in a row;
-    ``SPEED``: the greatest of late, by sample. ``SLOWEST`` to ``FASTEST``: the member whose
-    innovations are usually the least, ``TYPICAL`` being their standard deviation, to the likeliest
-    one, or the other way round. The others are of doubts
+    ``SPEED``: the greatest of late, by sample; ``POWER``: mean square of the third state of late,
+    which is half of the acceleration; ``LIKELY``: the likeliest member. ``SLOWEST`` to ``FASTEST``:
+    the member whose innovations are usually the least, ``TYPICAL`` being their standard deviation,
+    to the likeliest one, or the other way round. The others are of doubts
     (:mod:`~fpt_ros.denoising.streaming.ladder_doubts`).
     """
     return SHARED + 2 * hypothesis(members)

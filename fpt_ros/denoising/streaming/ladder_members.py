@@ -29,6 +29,7 @@ from fpt_ros.denoising.streaming.ladder import (
     HEADER,
     LAST,
     LEVEL,
+    LIKELY,
     LSB,
     MEDIAN,
     MEMBER,
@@ -147,6 +148,7 @@ def correct(
     state[at + SIGMA] = sigma
     state[at + BEST] = best
     state[first + TYPICAL] = least / 0.6745
+    state[first + LIKELY] = float(likely)
     state[first + SLOWEST] = float(typical if typical < likely else likely)
     state[first + FASTEST] = float(likely if typical < likely else typical)
 

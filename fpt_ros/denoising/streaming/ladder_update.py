@@ -5,6 +5,9 @@ gains depend on one number alone, the bandwidth h = (density dt^7 / sigma^2)^(1/
 a geometric ladder of h has all filters of this kind, at any rate and in any noise. Estimates are
 the weighted means over the ladder.
 
+**The acceleration** is shrunk where noise explains it, by Wiener's factor, to the share ``kept`` at
+least: a loop that is closed with it needs its gain.
+
 :mod:`~fpt_ros.denoising.streaming.ladder_members`: the noise, and how likely each member is;
 :mod:`~fpt_ros.denoising.streaming.ladder_doubts`: impulses, motions that set in, other noise.
 
@@ -17,9 +20,16 @@ Before the first sample the motion is taken to be at rest.
 from fpt_ros.denoising.streaming.ladder import (
     BEST,
     COST,
+    FOLLOWS,
     GAP,
+    HEADER,
+    LIKELY,
+    MEMBER,
     MEMBERS,
+    NOISE,
+    POWER,
     SHARED,
+    SIGMA,
     SPEED,
     UNDECIDED,
     hypothesis,
@@ -29,10 +39,37 @@ from fpt_ros.denoising.streaming.ladder import (
 from fpt_ros.denoising.streaming.ladder_doubts import FADING, follow_noise, is_waiting, take
 from fpt_ros.denoising.streaming.ladder_members import FEW, advance
 from fpt_ros.denoising.streaming.three_states import response_of
-from fpt_ros.laws import MutableVector, Vector
+from fpt_ros.laws import MutableVector, Vector, helper
 
 MANY = 2**24 - 1
 """Bits of a place: with & machine code knows that no index is negative (:data:`FEW`)."""
+
+ERRING = 2.0
+"""The acceleration is off by so many times the variance that noise gives it: the likeliest
+bandwidth is where noise and lag cost about the same."""
+REMEMBERED = 100.0
+"""Mean square of the acceleration at most, over its square and the variance that noise gives it: a
+fast motion that is over counts no more."""
+
+
+@helper
+def factor_of(state: MutableVector, first: int, square: float, noise: float, step: float) -> float:
+    """Wiener's factor of the third state, 1 - error / power; 0 where noise may explain all of it.
+
+    Args:
+        state: memory of all coordinates.
+        first: where that of this coordinate begins.
+        square: of the third state.
+        noise: variance that noise gives it.
+        step: weight of the newest square in the mean.
+    """
+    power = state[first + POWER]
+    power += step * (square - power)
+    most = REMEMBERED * (square if square > noise else noise)
+    power = power if power < most else most
+    state[first + POWER] = power
+    error = ERRING * noise
+    return 1.0 - error / power if error < power else 0.0
 
 
 def update(
@@ -47,7 +84,7 @@ def update(
 ) -> None:
     """One step of every member, and their weighted mean."""
     members = int(constants[0]) & FEW
-    rate = constants[3]
+    rate, kept = constants[3], constants[4]
     for c in range(len(q)):
         first = (c * memory(members)) & MANY
         believed = first + SHARED
@@ -78,5 +115,10 @@ def update(
             state[first + SPEED] = speed
         out_q[c] = position / total
         out_v[c] = velocity / total * rate
-        acceleration = 2.0 * bend / total * rate * rate
+        bend /= total
+        k = HEADER + MEMBER * (int(state[first + LIKELY]) & FEW)
+        noise = constants[k + NOISE] * state[believed + SIGMA] * state[believed + SIGMA]
+        factor = factor_of(state, first, bend * bend, noise, constants[k + FOLLOWS])
+        bend *= factor if factor > kept else kept
+        acceleration = 2.0 * bend * rate * rate
         out_response[c] = response_of(constants[2], out_q[c], out_v[c], acceleration)

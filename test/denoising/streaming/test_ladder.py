@@ -10,12 +10,14 @@ from filter_runs import bang_bang, constants_of, ended, filtered, noise, rms, tw
 from fpt_ros.denoising.streaming.kalman_bank import KALMAN_BANK
 from fpt_ros.denoising.streaming.ladder import LSB as LSB_PLACE
 from fpt_ros.denoising.streaming.ladder import (
+    MEMBERS,
     SHARED,
     SIGMA,
     UNEVEN,
-    innovation_gain,
+    noise_gains,
     weight_of,
 )
+from fpt_ros.denoising.streaming.ladder_deviation import weights
 from fpt_ros.denoising.streaming.ladder_members import MOST_UNEVEN
 from fpt_ros.denoising.streaming.steady_filter import steady_gains
 from fpt_ros.errors import BadInput
@@ -65,15 +67,46 @@ def test_a_smooth_motion_at_a_low_rate_has_no_lsb():
     assert ended(KALMAN_BANK, q, 0.01)[1][UNEVEN] < 1e-3
 
 
-def test_innovation_in_white_noise():
+def test_innovation_and_acceleration_in_white_noise():
     gains = steady_gains(4, 0.3**8, 1.0, 1.0)
-    x, found = np.zeros(4), []
+    x, innovations, bends = np.zeros(4), [], []
     F = np.array([[math.comb(j, i) for j in range(4)] for i in range(4)])
     for y in noise(20_000, 1, 1.0):
         x = F @ x
-        found.append(y - x[0])
-        x = x + gains * found[-1]
-    assert innovation_gain(gains) == pytest.approx(np.var(found[500:]), rel=0.05)
+        innovations.append(y - x[0])
+        x = x + gains * innovations[-1]
+        bends.append(x[2])
+    found = np.var(innovations[500:]), np.var(bends[500:])
+    assert noise_gains(gains) == pytest.approx(found, rel=0.05)
+
+
+def mixed_accelerations(q, **given):
+    """The weighted mean over the members, of each sample, and what is estimated."""
+    dt = 1e-3
+    constants = constants_of(KALMAN_BANK, 1, dt, **given)
+    members, state = int(constants[0]), np.zeros(KALMAN_BANK.state_size(constants, 1))
+    out, at = [np.zeros(1) for _ in range(3)], SHARED + MEMBERS + 2 * int(constants[0])
+    KALMAN_BANK.start(constants, state, q[:1], [math.nan])
+    found = []
+    for i in range(1, len(q)):
+        KALMAN_BANK.update(constants, state, dt, q[i : i + 1], [math.nan], *out)
+        bends = state[at : at + members]
+        found.append((2.0 * np.dot(weights(constants, state, 0), bends) / dt**2, out[2][0]))
+    return np.transpose(found)
+
+
+@pytest.mark.parametrize(("kept", "most"), [(0.0, 0.5), (0.7, 0.75), (0.95, 0.96), (1.0, 1.0)])
+def test_accelerations_that_noise_explains_are_shrunk(kept, most):
+    mixed, told = mixed_accelerations(noise(6000, 6), kept=kept)
+    assert np.all(np.abs(told) <= np.abs(mixed) * (1.0 + 1e-12))
+    assert np.all(np.abs(told) >= kept * np.abs(mixed) * (1.0 - 1e-12))
+    assert rms(told[3000:]) <= most * rms(mixed[3000:]) * (1.0 + 1e-12)
+
+
+def test_accelerations_of_a_motion_stay():
+    clean = two_sines(3000)
+    mixed, told = mixed_accelerations(clean[0] + noise(3000, 6, 1e-6), kept=0.0)
+    assert rms(told[500:] - mixed[500:]) < 0.01 * rms(clean[2][500:])
 
 
 @pytest.mark.parametrize("sigma", [1e-6, 1e-2])
@@ -138,7 +171,12 @@ def test_weights_are_nearly_exponential():
 
 @pytest.mark.parametrize(
     ("given", "reason"),
-    [({"slowest": 5.0}, "less than fastest"), ({"members": 1}, "members"), ({"gate": 1.0}, "gate")],
+    [
+        ({"slowest": 5.0}, "less than fastest"),
+        ({"members": 1}, "members"),
+        ({"gate": 1.0}, "gate"),
+        ({"kept": 1.5}, "kept"),
+    ],
 )
 def test_ladders_that_cannot_be(given, reason):
     with pytest.raises(BadInput, match=reason):
