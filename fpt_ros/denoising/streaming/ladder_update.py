@@ -109,13 +109,15 @@ def update(
             position += w * state[m]
             velocity += w * state[m + members]
             bend += w * state[m + 2 * members]
-        speed = abs(velocity / total)
+        share = 1.0 / total
+        velocity *= share
+        bend *= share
+        speed = abs(velocity)
         state[first + SPEED] *= 1.0 - FADING
         if state[first + SPEED] < speed:
             state[first + SPEED] = speed
-        out_q[c] = position / total
-        out_v[c] = velocity / total * rate
-        bend /= total
+        out_q[c] = position * share
+        out_v[c] = velocity * rate
         k = HEADER + MEMBER * (int(state[first + LIKELY]) & FEW)
         noise = constants[k + NOISE] * state[believed + SIGMA] * state[believed + SIGMA]
         factor = factor_of(state, first, bend * bend, noise, constants[k + FOLLOWS])
