@@ -1,6 +1,7 @@
 """Runs of causal filters on a recording of positions, for the tests of all of them."""
 
 import math
+from collections import deque
 
 import numpy as np
 
@@ -42,15 +43,21 @@ def filtered(law, q, dt=DT, **given):
     return run(law, q, dt, np.array, machine, **given)[:, :, 0]
 
 
-def ended(law, q, dt=DT):
-    """Constants and memory after a record of one coordinate."""
-    constants = np.array(constants_of(law, 1, dt))
+def steps(law, q, dt=DT, **given):
+    """After each sample of one coordinate but the first: constants, memory, and q, v, response."""
+    constants = np.array(constants_of(law, 1, dt, **given))
     state = np.zeros(law.state_size(constants, 1))
     law.start(constants, state, q[:1], [math.nan])
     machine = compiled.law(law.update, Update)
     out = np.zeros((3, 1))
     for each in q[1:]:
         machine(constants, state, dt, np.array([each]), np.array([math.nan]), *out)
+        yield constants, state, out[:, 0]
+
+
+def ended(law, q, dt=DT):
+    """Constants and memory after a record of one coordinate."""
+    constants, state, _ = deque(steps(law, q, dt), maxlen=1).pop()
     return constants, state
 
 

@@ -112,10 +112,8 @@ class Robot(Node):
         while rclpy.ok() and time.monotonic() - started < options.duration:
             due = max(due + period, time.monotonic())
             late = due + options.jitter * period * self.random.uniform(-0.5, 0.5)
-            left = late - time.monotonic()
-            while left > 0.0:
+            while (left := late - time.monotonic()) > 0.0:
                 rclpy.spin_once(self, timeout_sec=left)
-                left = late - time.monotonic()
             rclpy.spin_once(self, timeout_sec=0.0)
             self.tell()
 

@@ -23,8 +23,8 @@ PARAMETERS = (
         maximum=30.0,
     ),
     Parameter(
-        "kept",
-        "share of an acceleration that is kept at least where noise explains it; of the ladder",
+        "acceleration_kept",
+        "share of the acceleration that is kept at least where noise explains it; of the ladder",
         0.95,
         minimum=0.0,
         maximum=1.0,
@@ -73,7 +73,7 @@ def noise_gains(gains: NDArray[np.float64]) -> tuple[float, float]:
 
 
 def prepare(values: Values, n: int, dt: float) -> tuple[float, ...]:
-    """Constants: members, gate, order of the response, 1 / dt, kept; then those of each member.
+    """Constants: members, gate, order of the response, 1 / dt, kept share; then each member's.
 
     These are four gains, 1 - K, the factor of |e| for sigma, the share of the evidence that a
     sample forgets, the price of its innovation's variance over that of the next, the prior against
@@ -87,8 +87,8 @@ def prepare(values: Values, n: int, dt: float) -> tuple[float, ...]:
     gains = [steady_gains(STATES, h ** (2 * STATES), 1.0, 1.0) for h in ladder]
     price = [-math.log1p(-float(g[0])) for g in gains]
     order = float(integer(values, ORDER.name))
-    constants = [float(len(ladder)), number(values, "gate") or GATE, order, 1.0 / dt]
-    constants.append(number(values, "kept"))
+    gate, kept = number(values, "gate") or GATE, number(values, "acceleration_kept")
+    constants = [float(len(ladder)), gate, order, 1.0 / dt, kept]
     for h, g, own, faster in zip(ladder, gains, price, [*price[1:], price[-1]], strict=True):
         rest = 1.0 - float(g[0])
         innovation, bend = noise_gains(g)

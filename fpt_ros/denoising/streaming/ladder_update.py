@@ -5,8 +5,8 @@ gains depend on one number alone, the bandwidth h = (density dt^7 / sigma^2)^(1/
 a geometric ladder of h has all filters of this kind, at any rate and in any noise. Estimates are
 the weighted means over the ladder.
 
-**The acceleration** is shrunk where noise explains it, by Wiener's factor, to the share ``kept`` at
-least: a loop that is closed with it needs its gain.
+**The acceleration** is shrunk where noise explains it, by Wiener's factor, but to the share
+``acceleration_kept`` at least: a loop that is closed with it needs its gain.
 
 :mod:`~fpt_ros.denoising.streaming.ladder_members`: the noise, and how likely each member is;
 :mod:`~fpt_ros.denoising.streaming.ladder_doubts`: impulses, motions that set in, other noise.
@@ -84,7 +84,7 @@ def update(
 ) -> None:
     """One step of every member, and their weighted mean."""
     members = int(constants[0]) & FEW
-    rate, kept = constants[3], constants[4]
+    rate, least = constants[3], constants[4]
     for c in range(len(q)):
         first = (c * memory(members)) & MANY
         believed = first + SHARED
@@ -109,18 +109,18 @@ def update(
             position += w * state[m]
             velocity += w * state[m + members]
             bend += w * state[m + 2 * members]
-        share = 1.0 / total
-        velocity *= share
-        bend *= share
+        scale = 1.0 / total
+        velocity *= scale
+        bend *= scale
         speed = abs(velocity)
         state[first + SPEED] *= 1.0 - FADING
         if state[first + SPEED] < speed:
             state[first + SPEED] = speed
-        out_q[c] = position * share
+        out_q[c] = position * scale
         out_v[c] = velocity * rate
         k = HEADER + MEMBER * (int(state[first + LIKELY]) & FEW)
         noise = constants[k + NOISE] * state[believed + SIGMA] * state[believed + SIGMA]
         factor = factor_of(state, first, bend * bend, noise, constants[k + FOLLOWS])
-        bend *= factor if factor > kept else kept
+        bend *= factor if factor > least else least
         acceleration = 2.0 * bend * rate * rate
         out_response[c] = response_of(constants[2], out_q[c], out_v[c], acceleration)

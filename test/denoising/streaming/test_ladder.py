@@ -5,7 +5,7 @@ import math
 
 import numpy as np
 import pytest
-from filter_runs import bang_bang, constants_of, ended, filtered, noise, rms, two_sines
+from filter_runs import DT, bang_bang, constants_of, ended, filtered, noise, rms, steps, two_sines
 
 from fpt_ros.denoising.streaming.kalman_bank import KALMAN_BANK
 from fpt_ros.denoising.streaming.ladder import LSB as LSB_PLACE
@@ -82,22 +82,18 @@ def test_innovation_and_acceleration_in_white_noise():
 
 def mixed_accelerations(q, **given):
     """The weighted mean over the members, of each sample, and what is estimated."""
-    dt = 1e-3
-    constants = constants_of(KALMAN_BANK, 1, dt, **given)
-    members, state = int(constants[0]), np.zeros(KALMAN_BANK.state_size(constants, 1))
-    out, at = [np.zeros(1) for _ in range(3)], SHARED + MEMBERS + 2 * int(constants[0])
-    KALMAN_BANK.start(constants, state, q[:1], [math.nan])
     found = []
-    for i in range(1, len(q)):
-        KALMAN_BANK.update(constants, state, dt, q[i : i + 1], [math.nan], *out)
-        bends = state[at : at + members]
-        found.append((2.0 * np.dot(weights(constants, state, 0), bends) / dt**2, out[2][0]))
+    for constants, state, estimate in steps(KALMAN_BANK, q, **given):
+        members = int(constants[0])
+        bends = state[SHARED + MEMBERS + 2 * members :][:members]
+        mixed = 2.0 * np.dot(weights(constants, state, 0), bends) / DT**2
+        found.append((mixed, estimate[2]))
     return np.transpose(found)
 
 
 @pytest.mark.parametrize(("kept", "most"), [(0.0, 0.5), (0.7, 0.75), (0.95, 0.96), (1.0, 1.0)])
 def test_accelerations_that_noise_explains_are_shrunk(kept, most):
-    mixed, told = mixed_accelerations(noise(6000, 6), kept=kept)
+    mixed, told = mixed_accelerations(noise(6000, 6), acceleration_kept=kept)
     assert np.all(np.abs(told) <= np.abs(mixed) * (1.0 + 1e-12))
     assert np.all(np.abs(told) >= kept * np.abs(mixed) * (1.0 - 1e-12))
     assert rms(told[3000:]) <= most * rms(mixed[3000:]) * (1.0 + 1e-12)
@@ -105,7 +101,7 @@ def test_accelerations_that_noise_explains_are_shrunk(kept, most):
 
 def test_accelerations_of_a_motion_stay():
     clean = two_sines(3000)
-    mixed, told = mixed_accelerations(clean[0] + noise(3000, 6, 1e-6), kept=0.0)
+    mixed, told = mixed_accelerations(clean[0] + noise(3000, 6, 1e-6), acceleration_kept=0.0)
     assert rms(told[500:] - mixed[500:]) < 0.01 * rms(clean[2][500:])
 
 
@@ -175,7 +171,7 @@ def test_weights_are_nearly_exponential():
         ({"slowest": 5.0}, "less than fastest"),
         ({"members": 1}, "members"),
         ({"gate": 1.0}, "gate"),
-        ({"kept": 1.5}, "kept"),
+        ({"acceleration_kept": 1.5}, "acceleration_kept"),
     ],
 )
 def test_ladders_that_cannot_be(given, reason):
