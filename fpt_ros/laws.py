@@ -13,7 +13,7 @@ The aliases below are the only types that a law's signature may hold, beside num
 
 import math
 from collections.abc import Callable, MutableSequence, Sequence
-from typing import Any, Protocol, TypeVar, overload
+from typing import Annotated, Any, Protocol, TypeVar, overload
 
 Vector = Sequence[float]
 """Numbers that are only read: one per coordinate, or a law's constants in their order."""
@@ -23,6 +23,11 @@ MutableVector = MutableSequence[float]
 
 Indices = Sequence[int]
 """Places of coordinates in a vector."""
+
+Switch = Annotated[int, "switch"]
+"""A whole number of a stage's constants that chooses between ways, yes or no for example.
+
+A specialised loop holds the ways that are chosen and no others (:mod:`fpt_ros.engine.switches`)."""
 
 
 class Matrix(Protocol):

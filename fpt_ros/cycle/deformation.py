@@ -6,7 +6,7 @@ from typing import NamedTuple
 from fpt_ros.cycle.limits import LimitConstants, LimitWork
 from fpt_ros.cycle.rows import CommandRow, Estimated, Tuned, Wanted
 from fpt_ros.cycle.tuned import A_COEFFICIENT, A_WEIGHT, TunedPlaces
-from fpt_ros.laws import Indices, Matrix, MutableVector, Vector, helper
+from fpt_ros.laws import Indices, Matrix, MutableVector, Switch, Vector, helper
 from fpt_ros.plants import Effort
 from fpt_ros.transformations import Deform
 
@@ -32,10 +32,10 @@ class DeformerConstants(NamedTuple):
     delay: int
     late: int
     hold: int
-    adapts: int
+    adapts: Switch
     adaptive_from: float
     compensator: Vector
-    compensates: int
+    compensates: Switch
     limits: LimitConstants
 
 

@@ -11,7 +11,7 @@ from fpt_ros.cycle.rows import Commanded, Measured, StateEstimateRow, no_command
 from fpt_ros.cycle.stage import ANSWERING, IN_FLIGHT, JOINTS, REALTIME, ROBOT, Input, Stage
 from fpt_ros.denoising.streaming import FILTERS, ORDER, Update
 from fpt_ros.errors import BadInput
-from fpt_ros.laws import Matrix, MutableVector, Vector, helper
+from fpt_ros.laws import Matrix, MutableVector, Switch, Vector, helper
 from fpt_ros.messages.frames import Command, Frame, JointStates, StateEstimate
 from fpt_ros.messages.topics import COMMAND, JOINT_STATES, STATE_ESTIMATE, Topic
 from fpt_ros.parameters import Parameter, Values, flag, integer, number, word, words
@@ -39,7 +39,7 @@ class DenoiserConstants(NamedTuple):
     """Fixed: the filter's constants, whether a second filter is shown r, how samples are healed."""
 
     filter: Vector
-    synchronised: int
+    synchronised: Switch
     healing: HealingConstants
 
 

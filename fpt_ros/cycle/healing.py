@@ -10,7 +10,7 @@ cycles more: the deformation and the tuning learn nothing then, and go on from w
 import math
 from typing import NamedTuple
 
-from fpt_ros.laws import Matrix, MutableVector, Vector, helper
+from fpt_ros.laws import Matrix, MutableVector, Switch, Vector, helper
 from fpt_ros.parameters import Parameter, Values, integer, number, word
 
 HEALING = Parameter(
@@ -58,13 +58,13 @@ class HealingConstants(NamedTuple):
     ``predicts``: moved on, not held; ``fills``: shown to the filter, not left to it as missing.
     """
 
-    heals: int
-    predicts: int
-    fills: int
+    heals: Switch
+    predicts: Switch
+    fills: Switch
     limit: float
     most: float
     pause: float
-    order: int
+    order: Switch
 
 
 def constants_of(values: Values) -> HealingConstants:

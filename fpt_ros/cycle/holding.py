@@ -8,7 +8,7 @@ import math
 from typing import NamedTuple
 
 from fpt_ros.errors import BadInput
-from fpt_ros.laws import MutableVector, Vector, helper
+from fpt_ros.laws import MutableVector, Switch, Vector, helper
 from fpt_ros.messages.frames import Names
 from fpt_ros.parameters import Parameter, Values, numbers, word
 
@@ -43,7 +43,7 @@ PARAMETERS = (
 class HoldConstants(NamedTuple):
     """``holds``: whether it is asked for; n each where it is: ``stiffness``, ``damping``."""
 
-    holds: int
+    holds: Switch
     stiffness: Vector
     damping: Vector
 

@@ -11,7 +11,7 @@ from fpt_ros.cycle.holding import PARAMETERS as HOLDING
 from fpt_ros.cycle.holding import HoldConstants, hold_of
 from fpt_ros.cycle.stage import REALTIME
 from fpt_ros.errors import BadInput
-from fpt_ros.laws import MutableVector, Vector
+from fpt_ros.laws import MutableVector, Switch, Vector
 from fpt_ros.messages.frames import Names
 from fpt_ros.parameters import Parameter, Values, flag, number, numbers, word
 
@@ -80,15 +80,15 @@ class LimitConstants(NamedTuple):
     commanded while ``stopped``, unless the position is held (``hold``).
     """
 
-    acts: int
-    remembers: int
+    acts: Switch
+    remembers: Switch
     effort: Vector
     rate: Vector
-    windup: int
+    windup: Switch
     tolerance: float
     take_over: float
     timeout: float
-    stopped: int
+    stopped: Switch
     safe: Vector
     hold: HoldConstants
 

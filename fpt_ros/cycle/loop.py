@@ -58,7 +58,7 @@ from fpt_ros.cycle.tuning import (
 from fpt_ros.denoising.streaming import Update as Filter
 from fpt_ros.disturbances import Force
 from fpt_ros.integrators import Integrate
-from fpt_ros.laws import Matrix
+from fpt_ros.laws import Matrix, Switch
 from fpt_ros.plants import Advance, Effort, Regressor
 from fpt_ros.relaxations import Prescribe
 from fpt_ros.trajectories import Nominal
@@ -71,7 +71,7 @@ class CycleConstants(NamedTuple):
 
     cycle_time: int
     dt: float
-    has_tuner: int
+    has_tuner: Switch
     plant: PlantConstants
     denoiser: DenoiserConstants
     trajectory: TrajectoryConstants

@@ -8,7 +8,7 @@ from fpt_ros.cycle.chains import AT_ACTUATORS, AT_SENSORS, Spoilt
 from fpt_ros.cycle.rows import JointStatesRow
 from fpt_ros.disturbances import Force
 from fpt_ros.integrators import Integrate
-from fpt_ros.laws import Indices, Matrix, MutableVector, Vector, helper
+from fpt_ros.laws import Indices, Matrix, MutableVector, Switch, Vector, helper
 from fpt_ros.plants import Advance
 
 
@@ -32,9 +32,9 @@ class PlantConstants(NamedTuple):
     sigma_v: float
     h: float
     substeps: int
-    order: int
+    order: Switch
     disturbed: int
-    velocity_measured: int
+    velocity_measured: Switch
     late: int
     dt: float
     integrator: Vector
@@ -42,7 +42,7 @@ class PlantConstants(NamedTuple):
     sensors_at: Indices
     actuators: Matrix
     actuators_at: Indices
-    by_itself: int
+    by_itself: Switch
 
 
 class PlantMemory(NamedTuple):

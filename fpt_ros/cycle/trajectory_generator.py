@@ -8,7 +8,7 @@ from fpt_ros.cycle.records import Layout
 from fpt_ros.cycle.rows import DesiredRow, Estimated
 from fpt_ros.cycle.stage import ANSWERING, CYCLE_TIME, JOINTS, REALTIME, Input, Stage, indices
 from fpt_ros.errors import BadInput
-from fpt_ros.laws import Indices, MutableVector, Vector, helper
+from fpt_ros.laws import Indices, MutableVector, Switch, Vector, helper
 from fpt_ros.messages.frames import SECOND, Desired, Names, StateEstimate
 from fpt_ros.messages.topics import DESIRED, STATE_ESTIMATE
 from fpt_ros.parameters import Parameter, Values, integer, number, numbers, word, words
@@ -63,7 +63,7 @@ class TrajectoryConstants(NamedTuple):
     relaxation: Vector
     where: Indices
     slots: Vector
-    order: int
+    order: Switch
     late: float
 
 

@@ -2,6 +2,7 @@
 
 from typing import NamedTuple
 
+from fpt_ros.laws import Switch
 from fpt_ros.messages.frames import Names
 from fpt_ros.parameters import Parameter
 from fpt_ros.tuning import GAIN
@@ -34,7 +35,7 @@ class TunedPlaces(NamedTuple):
     factor, -1 where there is none.
     """
 
-    kind: int = NO_VALUES
+    kind: Switch = NO_VALUES
     first: int = 0
     size: int = 0
     factor: int = -1

@@ -4,7 +4,7 @@ import math
 from typing import NamedTuple
 
 from fpt_ros.cycle.rows import Commanded, Estimated, TuningRow, Wanted
-from fpt_ros.laws import Indices, MutableVector, Vector, helper
+from fpt_ros.laws import Indices, MutableVector, Switch, Vector, helper
 from fpt_ros.messages.frames import Command
 from fpt_ros.plants import Regressor
 from fpt_ros.tuning import Seen, Update
@@ -24,8 +24,8 @@ class TunerConstants(NamedTuple):
     law: Vector
     model: Vector
     where: Indices
-    reference: int
-    guards: int
+    reference: Switch
+    guards: Switch
     signals: int
     tune_from: float
 

@@ -1,6 +1,5 @@
 """Where the engine writes the messages of some cycles, and how they are read from there."""
 
-from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
@@ -25,7 +24,6 @@ from fpt_ros.messages.topics import (
     TUNING,
     Topic,
 )
-from fpt_ros.runs.chunks import aligned
 from fpt_ros.runs.run import Array, Series
 
 RECORDS: dict[Topic, Any] = {
@@ -38,12 +36,7 @@ RECORDS: dict[Topic, Any] = {
 
 
 class Buffers:
-    """Rows for the messages of at most ``length`` cycles, used again and again.
-
-    Attributes:
-        rows: what the loop writes.
-        noise: numbers for the sensors, a row a cycle; no columns without noise.
-    """
+    """Rows for the messages of ``length`` cycles; those behind :meth:`begin` may be used again."""
 
     def __init__(self, loop: Loop, length: int) -> None:
         plant, tuner = loop.plant, loop.tuner
@@ -60,20 +53,33 @@ class Buffers:
             topic: [np.empty((length, len(names))) for _ in topic.vectors]
             for topic, names in self._names.items()
         }
-        self.noise: Array = np.empty((length, 2 * len(plant.coordinates) if plant.noisy else 0))
-        records: list[Any] = [make(*self._arrays[topic]) for topic, make in RECORDS.items()]
-        self.rows = CycleRows(0, 0, *records, self.noise)  # type: ignore[call-arg]  # as many as it has
+        self._first = 0
+
+    def begin(self, cycle: int) -> None:
+        """Use all rows again, from this cycle on."""
+        self._first = cycle
+
+    def rows(self, first: int, end: int, noise: Array) -> CycleRows:
+        """What the loop writes in some cycles; of ``noise`` it reads a row for each."""
+        at = slice(first - self._first, end - self._first)
+        records: list[Any] = [
+            make(*[matrix[at] for matrix in self._arrays[topic]]) for topic, make in RECORDS.items()
+        ]
+        return CycleRows(first, end, *records, noise)  # type: ignore[call-arg]  # as many as it has
 
     def series(self, first: int, end: int) -> dict[str, Series]:
-        """The messages of some cycles, the first in row 0; views."""
+        """The messages of some cycles; views."""
         stamps = np.arange(first, end, dtype=np.int64) * self._cycle_time
+        at = slice(first - self._first, end - self._first)
         return {
-            topic.name: self._series(topic, stamps) for topic in LOOP_TOPICS if self._names[topic]
+            topic.name: self._series(topic, stamps, at)
+            for topic in LOOP_TOPICS
+            if self._names[topic]
         }
 
-    def _series(self, topic: Topic, stamps: NDArray[np.int64]) -> Series:
+    def _series(self, topic: Topic, stamps: NDArray[np.int64], at: slice) -> Series:
         vectors = {
-            name: matrix[: len(stamps)]
+            name: matrix[at]
             for name, matrix in zip(topic.vectors, self._arrays[topic], strict=True)
         }
         if topic is not DESIRED or not self._sharing:
@@ -82,46 +88,10 @@ class Buffers:
         vectors = {name: np.where(absent, np.nan, each) for name, each in vectors.items()}
         return Series(stamps, self._names[topic], vectors).without_empty("accelerations")
 
-    def put(self, row: int, topic: Topic, frame: Frame) -> None:
+    def put(self, cycle: int, topic: Topic, frame: Frame) -> None:
         """Write a frame that the Python stages gave."""
-        names = self._names[topic]
+        names, row = self._names[topic], cycle - self._first
         places = [names.index(name) for name in frame.names]
         for matrix, vector in zip(self._arrays[topic], frame[2:], strict=True):
             matrix[row] = np.nan
             matrix[row, places] = vector
-
-
-class Whole:
-    """Keeps all messages of a run: a consumer for those who need whole arrays."""
-
-    def __init__(self, cycles: int) -> None:
-        """``cycles``: at most so many come; memory is taken as they do."""
-        self._cycles = cycles
-        self._kept: dict[str, Series] = {}
-        self._done = 0
-
-    def take(self, chunk: Mapping[str, Series]) -> None:
-        """Copy some cycles."""
-        first = end = self._done
-        for topic, series in chunk.items():
-            room = self._kept[topic] = self._room(self._kept.get(topic), series)
-            end = first + len(series.stamps)
-            room.stamps[first:end] = series.stamps
-            for key, matrix in room.vectors.items():
-                matrix[first:end] = aligned(series, key, room.names)
-        self._done = end
-
-    def _room(self, room: Series | None, series: Series) -> Series:
-        """For all cycles; of ``desired``, coordinates that had no turn yet may come later."""
-        if room is None:
-            shape = self._cycles, len(series.names)
-            vectors = {key: np.empty(shape) for key in series.vectors}
-            return Series(np.empty(self._cycles, dtype=np.int64), series.names, vectors)
-        names = tuple(dict.fromkeys(room.names + series.names))
-        if names == room.names:
-            return room
-        return Series(room.stamps, names, {key: aligned(room, key, names) for key in room.vectors})
-
-    def topics(self) -> dict[str, Series]:
-        """All so far; of ``desired`` the coordinates that have had a turn."""
-        return {topic: room.head(self._done) for topic, room in self._kept.items()}

@@ -2,9 +2,9 @@
 
 A law is compiled for the signature of its kind and called through a pointer, so that the loop
 itself is compiled once for all laws, and a user's own law costs one small compilation. For long
-and for many runs the laws are built into a specialised loop, twice as fast: the code that is there
-is linked and optimised once more, which takes seconds, and gives the same bits. The machine code
-is kept in the user's cache; the folder's name tells the sources it was made of.
+and for many runs laws and switches are built into a specialised loop, twice as fast: the code that
+is there is linked and optimised once more, which takes seconds, and gives the same bits. The
+machine code is kept in the user's cache; the folder's name tells the sources it was made of.
 """
 
 import hashlib
@@ -22,6 +22,7 @@ from typing import Any, cast
 
 from fpt_ros import law_code, laws
 from fpt_ros.engine import foreign_calls
+from fpt_ros.engine.switches import Switches, written
 from fpt_ros.engine.types import arguments_of, signature_of, type_of
 
 _PACKAGE = Path(__file__).parents[1]
@@ -194,24 +195,27 @@ def loop(function: Callable[..., Any], chosen: Laws) -> Callable[..., Any]:
     Raises:
         NotCompiled: one of them cannot be compiled.
     """
-    return partial(_loop(function), *_compiled_laws(function, chosen))
+    return partial(_undispatched(_loop(function)), *_compiled_laws(function, chosen))
 
 
 @cache
-def is_specialised(function: Callable[..., Any], chosen: Laws) -> bool:
-    """Whether the loop with these laws built in is on disk: then it is there at once."""
+def is_specialised(function: Callable[..., Any], chosen: Laws, switches: Switches) -> bool:
+    """Whether the loop with all this built in is on disk: then it is there at once."""
     folder = Path(_numba().config.CACHE_DIR)
-    return any(folder.glob(f"**/*{_built_in(function, chosen)}-*.nbi"))
+    return any(folder.glob(f"**/*{_built_in(function, chosen, switches)}-*.nbi"))
 
 
-def _built_in(function: Callable[..., Any], chosen: Laws) -> str:
-    """The name that tells a loop with its laws from all others."""
-    return f"built_in_{_digest((cache_directory().name, *map(_identity, (function, *chosen))))}"
+def _built_in(function: Callable[..., Any], chosen: Laws, switches: Switches) -> str:
+    """The name that tells a loop with its laws and switches from all others."""
+    parts = cache_directory().name, *map(_identity, (function, *chosen)), switches
+    return f"built_in_{_digest(parts)}"
 
 
 @cache
-def specialised_loop(function: Callable[..., Any], chosen: Laws) -> Callable[..., Any]:
-    """The same as :func:`loop`, with the laws built in.
+def specialised_loop(
+    function: Callable[..., Any], chosen: Laws, switches: Switches
+) -> Callable[..., Any]:
+    """The same as :func:`loop`, with the laws and the values of switches built in.
 
     It is a function that calls the loop with them: inlined there, the pointers are constants, and
     what they point at is inlined as well. Nothing is typed or lowered again, which is what numba
@@ -219,20 +223,30 @@ def specialised_loop(function: Callable[..., Any], chosen: Laws) -> Callable[...
     is on disk, its parts are not asked for: to load them would take as long again.
     """
     _, others, result = arguments_of(function)
-    rest, pointers = ", ".join(others), ", ".join(f"law{i}" for i in range(len(chosen)))
-    text = f"def built_in({rest}):\n    return loop({pointers}, {rest})"
-    scope: dict[str, Any] = {"__name__": __name__}
+    pointers = ", ".join(f"law{i}" for i in range(len(chosen)))
+    given, scope = written(others, switches)
+    text = f"def built_in({', '.join(others)}):\n    return loop({pointers}, {given})"
+    scope["__name__"] = __name__
     exec(compile(text, __file__, "exec"), scope)
-    scope["built_in"].__qualname__ = _built_in(function, chosen)
+    scope["built_in"].__qualname__ = _built_in(function, chosen, switches)
     signature = type_of(result)(*map(type_of, others.values()))
     with warnings.catch_warnings():
         warnings.filterwarnings("ignore", "First-class function type")
-        if is_specialised(function, chosen):
+        if is_specialised(function, chosen, switches):
             with suppress(Exception):  # it is on disk for another processor, or spoilt
-                return cast(Callable[..., Any], _machine_code(scope["built_in"], signature))
+                return _undispatched(_machine_code(scope["built_in"], signature))
         scope |= {f"law{i}": each for i, each in enumerate(_compiled_laws(function, chosen))}
         scope["loop"] = _loop(function)
-        return cast(Callable[..., Any], _machine_code(scope["built_in"], signature))
+        return _undispatched(_machine_code(scope["built_in"], signature))
+
+
+def _undispatched(code: Any) -> Callable[..., Any]:
+    """Machine code of one signature, called without numba's search for the one that fits.
+
+    The search looks at every array of the records: it takes 15 times as long as the call.
+    """
+    (found,) = code.overloads.values()
+    return cast(Callable[..., Any], found.entry_point)
 
 
 def _digest(identity: Any) -> str:

@@ -13,8 +13,8 @@ from fpt_ros.cycle.rows import CommandRow
 from fpt_ros.cycle.run import NO_CHANGES, Changes, Run
 from fpt_ros.cycle.stages import Loop
 from fpt_ros.cycle.tuning import TunerConstants, TunerMemory, TunerWork
-from fpt_ros.engine import compiled
-from fpt_ros.engine.buffers import Buffers, Whole
+from fpt_ros.engine import compiled, switches
+from fpt_ros.engine.buffers import Buffers
 from fpt_ros.engine.in_python import in_python
 from fpt_ros.engine.relay import Relay
 from fpt_ros.engine.types import Array, as_arrays, empty
@@ -60,35 +60,37 @@ class Engine:
         Args:
             loop: of an experiment; its stages' states are advanced by the run.
             compile_laws: whether the loop runs as machine code, or as the Python that it is.
-            consumers: of the messages; by default all of them are kept for :meth:`topics`, which
-                takes memory for the whole run.
+            consumers: of the messages, chunk by chunk; by default all of them are kept for
+                :meth:`topics`, which takes memory for the whole run.
             changes: of parameters in flight.
             runs: how many of this kind there are, all together.
         """
         self._loop, self._changes = loop, changes
         self.done = 0
-        self._whole = Whole(loop.plant.cycles) if consumers is None else None
-        taking = [self._whole] if self._whole is not None else list(consumers or ())
-        long = loop.plant.cycles >= LONG
-        self._relay = Relay(taking, beside=long)
+        self._keeps = consumers is None
+        beside = self.cycles >= LONG
+        self._relay = Relay(list(consumers or ()), beside)
         plant, denoiser, tuner = loop.plant, loop.denoiser, loop.tuner
         denoiser.begin(plant.measure(0, 0), plant.dt)
         if tuner.active and not tuner.published:
             tuner.begin(plant.coordinates, loop.trajectory.controlled)
         if not loop.deformer.controlled:
             loop.deformer.begin(loop.trajectory.controlled)
+        self._buffers = Buffers(loop, self.cycles if self._keeps else min(CHUNK, self.cycles))
+        self._spare = Buffers(loop, CHUNK) if beside and not self._keeps else self._buffers
         self._states = [_view(stage.state) for stage in loop.stages()]
         self._command: list[Array] = list(np.full((2, len(plant.coordinates)), np.nan))
-        compiled_run = self._compiled(runs) if compile_laws else None
-        self._is_compiled = compiled_run is not None
-        self._run: Callable[..., int] = compiled_run or in_python(self._laws)
+        self._compile, self._many = compile_laws, runs * self.cycles >= MANY
         self._lay_out()
 
     def _lay_out(self) -> None:
-        """All that the loop works on, by the parameters that are in force."""
+        """The loop, and all that it works on, by the parameters that are in force."""
         loop = self._loop
         self._constants, self._work = _constants(loop), _work(loop)
-        if self._is_compiled:
+        found = self._compiled() if self._compile else None
+        self._compile = found is not None  # why not is said once
+        self._run: Callable[..., int] = found or in_python(self._laws)
+        if self._compile:
             self._constants = as_arrays(self._constants, CycleConstants)
             self._work = as_arrays(self._work, CycleWork)
             self._memory = _memory(loop, self._states, self._command)
@@ -96,8 +98,8 @@ class Engine:
             states = [stage.state for stage in loop.stages()]
             command = [cast("memoryview[float]", vector.data) for vector in self._command]
             self._memory = _memory(loop, states, command)
-        self._buffers = Buffers(loop, min(CHUNK, self.cycles))
-        self._spare = Buffers(loop, CHUNK) if self.cycles >= LONG else self._buffers
+        width = 2 * len(loop.plant.coordinates) if loop.plant.noisy else 0
+        self._noise = np.empty((min(CHUNK, self.cycles), width))
 
     @property
     def _laws(self) -> compiled.Laws:
@@ -114,12 +116,12 @@ class Engine:
             *self._loop.plant.laws,
         )
 
-    def _compiled(self, runs: int) -> Callable[..., int] | None:
+    def _compiled(self) -> Callable[..., int] | None:
         """The loop as machine code; of laws that cannot be compiled there is none, it says why."""
-        much = self.cycles >= LONG or runs * self.cycles >= MANY
+        special = cycle.run, self._laws, switches.read("constants", self._constants)
         try:
-            if much or compiled.is_specialised(cycle.run, self._laws):
-                return compiled.specialised_loop(cycle.run, self._laws)
+            if self.cycles >= LONG or self._many or compiled.is_specialised(*special):
+                return compiled.specialised_loop(*special)
             return compiled.loop(cycle.run, self._laws)
         except compiled.NotCompiled as error:
             notice(f"a law cannot be compiled, {error.why}; the run is in Python, {SLOWER}")
@@ -185,7 +187,7 @@ class Engine:
         command: Command | None = None
         try:
             for topic, frame in run.frames(1):
-                self._buffers.put(cycle - first, topic, frame)
+                self._buffers.put(cycle, topic, frame)
                 if isinstance(frame, StateEstimate):
                     estimate = frame
                 if isinstance(frame, Command):  # all its messages are there, the plant may fail
@@ -201,19 +203,22 @@ class Engine:
         return command
 
     def _hand_over(self, first: int, end: int) -> None:
+        """Give some cycles to the consumers, and go on in rows that none of them reads."""
         self.done = end
-        if end > first:
+        if end > first and not self._keeps:
             self._relay.give(partial(self._buffers.series, first, end))
             self._buffers, self._spare = self._spare, self._buffers
+            self._buffers.begin(end)
 
     def _remembered(self) -> list[Array]:
         """All that a cycle changes and the next one needs."""
         return [*self._states, *self._command]
 
     def _call(self, first: int, end: int) -> int:
-        rows = self._buffers.rows._replace(first=first, last=end)
+        noise = self._noise[: end - first]
         if self._loop.plant.noisy:
-            self._loop.plant.noise.rows(first, self._buffers.noise[: end - first])
+            self._loop.plant.noise.rows(first, noise)
+        rows = self._buffers.rows(first, end, noise)
         with np.errstate(all="ignore"):
             return self._run(self._constants, self._memory, self._work, rows)
 
@@ -230,9 +235,9 @@ class Engine:
         Raises:
             RunFailed: they were given to consumers instead.
         """
-        if self._whole is None:
+        if not self._keeps:
             raise RunFailed("the engine keeps no messages where it has consumers")
-        return self._whole.topics()
+        return self._buffers.series(0, self.done)
 
 
 def _constants(loop: Loop) -> CycleConstants:

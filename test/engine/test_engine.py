@@ -13,7 +13,7 @@ from fpt_ros.engine import compiled
 from fpt_ros.engine import engine as engine_module
 from fpt_ros.engine.engine import MANY, Engine
 from fpt_ros.experiments import experiment
-from fpt_ros.runs.chunks import frames
+from fpt_ros.runs.chunks import frames, joined
 
 ARMS = ("iiwa", "panda", "ur5e")
 """One variant stands for all: test_arms.py has the others of panda."""
@@ -148,6 +148,24 @@ def test_a_long_run_has_its_laws_built_in_and_gives_the_same_bits(monkeypatch, n
     assert_identical(finished(loaded.loop())[0].topics(), through_pointers)
 
 
+def test_switches_that_change_in_flight_change_the_code(monkeypatch):
+    loaded, original, stopped = load("tora", "adaptive"), compiled.specialised_loop, []
+    changes = {at: {"fpt_deformer": {"stopped": at == 150}} for at in (150, 200)}
+
+    def specialised(function, laws, switches):
+        stopped.append(dict(switches)["constants.deformer.limits.stopped"])
+        return original(function, laws, switches)
+
+    monkeypatch.setattr(compiled, "specialised_loop", specialised)
+    monkeypatch.setattr(engine_module, "LONG", CYCLES)
+    engine = Engine(loaded.loop(), changes=changes)
+    engine.run()
+    assert stopped == [0, 1, 0]
+    in_python = Engine(loaded.loop(), compile_laws=False, changes=changes)
+    in_python.run()
+    assert_identical(engine.topics(), in_python.topics())
+
+
 def test_many_short_runs_are_a_long_one(monkeypatch):
     built_in = []
     monkeypatch.setattr(compiled, "is_specialised", lambda *_: False)
@@ -174,18 +192,35 @@ def law_of(path, text):
     return module.law
 
 
-def test_built_in_laws_are_kept_on_disk_and_are_those_of_the_files_as_they_are(tmp_path):
+def test_built_in_laws_are_kept_on_disk_and_are_those_of_the_files_as_they_are(
+    tmp_path, monkeypatch
+):
     other = law_of(tmp_path / "other.py", "x * x")
     first = law_of(tmp_path / "mine.py", "x + 1.0")
     fresh = compiled.specialised_loop.__wrapped__
-    for hits in (0, 1):
-        found = fresh(sum_of, (first, other))
-        assert found(3.0) == 4.0 + 9.0
-        assert sum(found.stats.cache_hits.values()) == hits
-    assert fresh(sum_of, (other, first))(3.0) == 9.0 + 4.0
+    assert fresh(sum_of, (first, other), ())(3.0) == 4.0 + 9.0
+    compiled.is_specialised.cache_clear()
+    with monkeypatch.context() as loaded:
+        loaded.setattr(compiled, "_loop", None)  # nothing to build it from
+        assert fresh(sum_of, (first, other), ())(3.0) == 4.0 + 9.0
+    assert fresh(sum_of, (other, first), ())(3.0) == 9.0 + 4.0
     # of another length: Python's own cache tells files of the same second by their size
     changed = law_of(tmp_path / "mine.py", "x + 2.00")
-    assert fresh(sum_of, (changed, other))(3.0) == 5.0 + 9.0
+    assert fresh(sum_of, (changed, other), ())(3.0) == 5.0 + 9.0
+
+
+class Consumed:
+    """Keeps what it is given, as copies: the arrays are used again."""
+
+    def __init__(self):
+        self.parts = {}
+
+    def take(self, chunk):
+        for name, series in chunk.items():
+            self.parts.setdefault(name, []).append(series.copy())
+
+    def topics(self):
+        return {name: joined(parts) for name, parts in self.parts.items()}
 
 
 @pytest.mark.parametrize("chunk", [1, 7, 399, 400, 401])
@@ -194,6 +229,9 @@ def test_the_length_of_a_chunk_does_not_matter(monkeypatch, chunk):
     whole = finished(loaded.loop())[0].topics()
     monkeypatch.setattr(engine_module, "CHUNK", chunk)
     assert_identical(finished(loaded.loop())[0].topics(), whole)
+    consumed = Consumed()
+    Engine(loaded.loop(), consumers=[consumed]).run()
+    assert_identical(consumed.topics(), whole)
 
 
 def test_frames_are_the_topics():

@@ -52,22 +52,27 @@ class Tree:
             digest.update(str(path.relative_to(self.root)).encode() + b"\0" + path.read_bytes())
         return digest.hexdigest()[:16]
 
-    def run(self, cases: list[Case], folder: Path, done: Callable[[str], None]) -> None:
-        """Run cases in this tree, one after the other, and keep each in the folder.
+    def environment(self) -> dict[str, str]:
+        """In which a Python runs this tree's code, with its entry points.
 
         Machine code is kept by the tree's whole source, so that no code of another commit is met.
-
-        Raises:
-            Failed: the tree's code cannot be imported, or was killed.
         """
         environment = {k: v for k, v in os.environ.items() if k not in UNWANTED}
         environment["PYTHONPATH"] = os.pathsep.join(map(str, (self.metadata, self.root)))
         environment["XDG_CACHE_HOME"] = str(CACHE / "compiled" / self.digest)
+        return environment
+
+    def run(self, cases: list[Case], folder: Path, done: Callable[[str], None]) -> None:
+        """Run cases in this tree, one after the other, and keep each in the folder.
+
+        Raises:
+            Failed: the tree's code cannot be imported, or was killed.
+        """
         words = [sys.executable, str(DUMPER), str(self.root), str(folder)]
         given = json.dumps([asdict(case) | {"file": case.file} for case in cases])
         pipe = subprocess.PIPE
         with subprocess.Popen(
-            words, stdin=pipe, stdout=pipe, text=True, env=environment, cwd=self.root
+            words, stdin=pipe, stdout=pipe, text=True, env=self.environment(), cwd=self.root
         ) as process:
             assert process.stdin is not None
             assert process.stdout is not None
