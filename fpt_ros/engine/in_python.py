@@ -19,8 +19,9 @@ from fpt_ros.errors import RunFailed
 BY_ELEMENT = " (a law reads and writes its vectors element by element, without slices)"
 
 PIECE = 32
-"""Cycles whose rows are prepared at a time; each row of a message is an object of 200 bytes. More of
-them would leave the processor's cache, and Python looks for garbage among them."""
+"""Cycles whose rows are prepared at a time; each row of a message is an object of 200 bytes.
+
+More of them would leave the processor's cache, and Python looks for garbage among them."""
 
 NOTHING: "memoryview[float]" = memoryview(array("d"))
 
