@@ -23,6 +23,11 @@ def seconds(name: str, cycles: int, compiled: bool) -> float:
     return perf_counter() - started
 
 
-for line in sys.stdin:
-    experiment, length, how = line.split()
-    print(seconds(experiment, int(length), how == "compiled"), flush=True)
+try:
+    for line in sys.stdin:
+        experiment, length, how = line.split()
+        print(seconds(experiment, int(length), how == "compiled"), flush=True)
+except KeyboardInterrupt:
+    sys.exit(130)
+except Exception as error:
+    sys.exit(f"{type(error).__name__}: {error}")
