@@ -1,8 +1,8 @@
 """A run of hours: the whole command against a C loop of the same cycles that keeps nothing.
 
-``fpt simulate tora`` with metrics, from its start to its end, and its largest memory; the C loop
-(``c/tora.c``, -O2) writes all its messages into one row. At 20,721 s the beam
-comes to its singularity, in the engine as in C: shorter runs only.
+``fpt simulate`` with metrics, from its start to its end, and its largest memory; the C loop
+(``c/``, -O2) writes all its messages into one row. TORA comes to its singularity at 20,721 s, in
+the engine as in C; ``--experiment vdp_rfpt --duration 36000`` goes on.
 """
 
 import json
@@ -21,23 +21,24 @@ FPT = str(Path(sys.executable).with_name("fpt"))
 
 def main() -> None:
     """Measure, and print the table."""
-    options = arguments(__doc__ or "", duration=20_000.0)
-    cycles = round(options.duration / 1e-3)
+    options = arguments(__doc__ or "", experiment="tora", duration=20_000.0)
+    name = options.experiment
+    cycles = round(options.duration / engine_of(name, 1)._loop.plant.dt)
 
     def command() -> float:
         started = perf_counter()
-        words = [FPT, "simulate", "tora", "--duration", str(options.duration), "--json"]
+        words = [FPT, "simulate", name, "--duration", str(options.duration), "--json"]
         done = subprocess.run(words, check=True, capture_output=True, text=True)
         assert json.loads(done.stdout)["cycles"] == cycles
         return perf_counter() - started
 
     with tempfile.TemporaryDirectory(prefix="fpt-bench-") as folder:
-        run = c_loop("tora", Path(folder), "-DNOTHING_KEPT")
-        rows = rows_like(engine_of("tora", 1), 1)
+        run = c_loop(name, Path(folder), "-DNOTHING_KEPT")
+        rows = rows_like(engine_of(name, 1), 1)
 
         measurements = {
             "C, -O2, nothing kept": lambda: cycles / run_c(run, rows, cycles),
-            "fpt simulate tora": command,
+            f"fpt simulate {name}": command,
         }
         found = median(alternate(measurements, options.runs, options.json))
     base = found["C, -O2, nothing kept"]

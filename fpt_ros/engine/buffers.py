@@ -36,7 +36,7 @@ RECORDS: dict[Topic, Any] = {
 
 
 class Buffers:
-    """Rows for the messages of ``length`` cycles; those behind :meth:`begin` may be used again."""
+    """Rows for the messages of ``length`` cycles, at first of those from 0 on."""
 
     def __init__(self, loop: Loop, length: int) -> None:
         plant, tuner = loop.plant, loop.tuner
@@ -56,7 +56,7 @@ class Buffers:
         self._first = 0
 
     def begin(self, cycle: int) -> None:
-        """Use all rows again, from this cycle on."""
+        """Use all rows again, for the cycles from this one on."""
         self._first = cycle
 
     def rows(self, first: int, end: int, noise: Array) -> CycleRows:

@@ -2,8 +2,9 @@
 
 from pathlib import Path
 
+from consumed import Consumed
+
 from fpt_ros.bags.recording import EngineRecording
-from fpt_ros.engine.buffers import Whole
 from fpt_ros.engine.engine import Engine
 from fpt_ros.experiments import experiment
 from fpt_ros.experiments.experiment import Experiment
@@ -57,7 +58,7 @@ class Recorded:
 def record(directory: Path) -> Recorded:
     tora = experiment.load("tora", duration=1.0)
     loop = tora.loop()
-    whole = Whole(loop.plant.cycles)
+    whole = Consumed()
     with EngineRecording(directory, tora) as recording:
         Engine(loop, consumers=(whole, recording)).run()
     topics = whole.topics()

@@ -6,6 +6,7 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 import samples
+from consumed import Consumed
 from frames_collected import Collector
 from whole_loops import CYCLES, assert_engine_equals_stages, assert_identical, finished, load
 
@@ -13,7 +14,7 @@ from fpt_ros.engine import compiled
 from fpt_ros.engine import engine as engine_module
 from fpt_ros.engine.engine import MANY, Engine
 from fpt_ros.experiments import experiment
-from fpt_ros.runs.chunks import frames, joined
+from fpt_ros.runs.chunks import frames
 
 ARMS = ("iiwa", "panda", "ur5e")
 """One variant stands for all: test_arms.py has the others of panda."""
@@ -207,20 +208,6 @@ def test_built_in_laws_are_kept_on_disk_and_are_those_of_the_files_as_they_are(
     # of another length: Python's own cache tells files of the same second by their size
     changed = law_of(tmp_path / "mine.py", "x + 2.00")
     assert fresh(sum_of, (changed, other), ())(3.0) == 5.0 + 9.0
-
-
-class Consumed:
-    """Keeps what it is given, as copies: the arrays are used again."""
-
-    def __init__(self):
-        self.parts = {}
-
-    def take(self, chunk):
-        for name, series in chunk.items():
-            self.parts.setdefault(name, []).append(series.copy())
-
-    def topics(self):
-        return {name: joined(parts) for name, parts in self.parts.items()}
 
 
 @pytest.mark.parametrize("chunk", [1, 7, 399, 400, 401])
