@@ -61,7 +61,7 @@ def test_every_node_and_the_whole_run_are_equal_to_the_last_bit(tmp_path, name):
 
 @pytest.mark.parametrize("options", [("--realtime",), ("--realtime", "--composed")])
 def test_a_run_in_real_time_node_by_node(tmp_path, options):
-    # four seconds at 250 cycles/s: half a one at 1 kHz can pass on a busy machine before a node runs
+    # four seconds at 250 cycles/s: half a one can pass on a busy machine before a node runs
     common = ("vdp_rfpt", "--duration", 1.0, "--set", "plant_simulator.speed=0.25", *options)
     done = fpt("run", *common, "--record", tmp_path / "bag", "--namespace", "r1")
     assert done.returncode == 0, done.stderr
