@@ -7,24 +7,23 @@ meets both alike; a ratio is of two runs of one turn. The interval holds the med
     python benchmarks/before.py --rev v0.1.0 --runs 30
 """
 
-import random
 import subprocess
 import sys
 from contextlib import ExitStack
+from functools import partial
 from math import isfinite
 from pathlib import Path
 from statistics import median
 from tempfile import TemporaryDirectory
 
-from measure import arguments, show
-from rich.console import Console
+from engine import EXPERIMENTS
+from measure import alternate, arguments, show
 from scipy.stats import quantile_test
 
 HERE = Path(__file__).parent
 sys.path.insert(0, str(HERE.parent / "test" / "same_bits"))
 from tree import CACHE, Failed, Tree, commit_of, new_tree, old_tree  # noqa: E402
 
-EXPERIMENTS = ("tora", "vdp_rfpt", "cart_beam_hamper", "spherical_pendulum")
 IN_PYTHON = 500
 """So many times fewer cycles are run without machine code."""
 
@@ -67,23 +66,20 @@ class Runner:
 
 
 def in_turn(
-    runners: dict[str, Runner], what: tuple[str, int, str], runs: int, say: Console
-) -> dict[str, list[float]]:
-    """Paces of both trees, after one run each that is not counted."""
+    runners: dict[str, Runner], what: tuple[str, int, str], runs: int, quiet: bool
+) -> list[list[float]]:
+    """Paces of each tree, after one run each that is not counted."""
     for runner in runners.values():
         runner.pace(*what)
-    paces: dict[str, list[float]] = {name: [] for name in runners}
-    for run in range(runs):
-        for name in random.sample(list(runners), len(runners)):
-            paces[name].append(runners[name].pace(*what))
-        ratio = paces["now"][-1] / paces["before"][-1]
-        say.print(f"{what[0]}, {what[2]}: turn {run + 1} of {runs}: {ratio:.2f}", style="dim")
-    return paces
+    measurements = {
+        f"{what[0]}, {what[2]}, {name}": partial(runner.pace, *what)
+        for name, runner in runners.items()
+    }
+    return list(alternate(measurements, runs, quiet).values())
 
 
-def row(label: str, paces: dict[str, list[float]]) -> dict[str, object]:
+def row(label: str, before: list[float], now: list[float]) -> dict[str, object]:
     """A row of the table."""
-    before, now = paces["before"], paces["now"]
     ratios = [b / a for a, b in zip(before, now, strict=True)]
     found = quantile_test(ratios, p=0.5).confidence_interval()
     interval = f"{found.low:.3f} to {found.high:.3f}" if isfinite(found.low + found.high) else None
@@ -102,8 +98,7 @@ def main() -> int:
     names = (options.only,) if options.only else EXPERIMENTS
     whats = [(name, options.cycles, "compiled") for name in names]
     whats += [(name, options.cycles // IN_PYTHON, "python") for name in names]
-    say = Console(stderr=True, quiet=options.json)
-    found: dict[tuple[str, int, str], dict[str, list[float]]] = {}
+    found: dict[tuple[str, int, str], list[list[float]]] = {what: [[], []] for what in whats}
     try:
         commit = commit_of(options.rev)
         old = old_tree(commit)
@@ -115,17 +110,16 @@ def main() -> int:
                     for runner in runners.values():
                         stack.callback(runner.end)
                     for what in whats:
-                        paces = in_turn(runners, what, options.runs, say)
-                        kept = found.setdefault(what, {name: [] for name in trees})
-                        for name, values in paces.items():
-                            kept[name] += values
+                        paces = in_turn(runners, what, options.runs, options.json)
+                        for kept, new in zip(found[what], paces, strict=True):
+                            kept += new
     except Failed as error:
         print(f"before.py: {error}", file=sys.stderr)
         return error.status
     except KeyboardInterrupt:
         return 130
     rows = [
-        row(f"{name}, {cycles:,} cycles, {how}", found[name, cycles, how])
+        row(f"{name}, {cycles:,} cycles, {how}", *found[name, cycles, how])
         for name, cycles, how in whats
     ]
     many = options.starts * options.runs

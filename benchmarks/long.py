@@ -23,7 +23,8 @@ def main() -> None:
     """Measure, and print the table."""
     options = arguments(__doc__ or "", experiment="tora", duration=20_000.0)
     name = options.experiment
-    cycles = round(options.duration / engine_of(name, 1)._loop.plant.dt)
+    one = engine_of(name, 1)
+    cycles = round(options.duration / one._loop.plant.dt)
 
     def command() -> float:
         started = perf_counter()
@@ -34,7 +35,7 @@ def main() -> None:
 
     with tempfile.TemporaryDirectory(prefix="fpt-bench-") as folder:
         run = c_loop(name, Path(folder), "-DNOTHING_KEPT")
-        rows = rows_like(engine_of(name, 1), 1)
+        rows = rows_like(one, 1)
 
         measurements = {
             "C, -O2, nothing kept": lambda: cycles / run_c(run, rows, cycles),

@@ -4,6 +4,7 @@ import argparse
 import json
 import os
 import platform
+import random
 import statistics
 from collections.abc import Callable, Mapping, Sequence
 from datetime import date
@@ -48,12 +49,12 @@ def arguments(about: str, **options: Any) -> argparse.Namespace:
 def alternate(
     measurements: Mapping[str, Callable[[], float]], runs: int, quiet: bool
 ) -> dict[str, list[float]]:
-    """Run all measurements one after the other, ``runs`` times, so that load meets all alike."""
+    """Run all measurements in turn, in random order, ``runs`` times: load meets all alike."""
     results: dict[str, list[float]] = {name: [] for name in measurements}
     console = Console(stderr=True, quiet=quiet)
     for run in range(runs):
-        for name, measure in measurements.items():
-            results[name].append(measure())
+        for name in random.sample(list(measurements), len(measurements)):
+            results[name].append(measurements[name]())
             console.print(f"run {run + 1} of {runs}: {name}: {results[name][-1]:.5g}", style="dim")
     return results
 

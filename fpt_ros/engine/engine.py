@@ -80,17 +80,17 @@ class Engine:
         self._spare = Buffers(loop, CHUNK) if beside and not self._keeps else self._buffers
         self._states = [_view(stage.state) for stage in loop.stages()]
         self._command: list[Array] = list(np.full((2, len(plant.coordinates)), np.nan))
-        self._compile, self._many = compile_laws, runs * self.cycles >= MANY
+        self._compiles, self._many = compile_laws, runs * self.cycles >= MANY
         self._lay_out()
 
     def _lay_out(self) -> None:
         """The loop, and all that it works on, by the parameters that are in force."""
         loop = self._loop
         self._constants, self._work = _constants(loop), _work(loop)
-        found = self._compiled() if self._compile else None
-        self._compile = found is not None  # why not is said once
+        found = self._compiled() if self._compiles else None
+        self._compiles = found is not None  # why not is said once
         self._run: Callable[..., int] = found or in_python(self._laws)
-        if self._compile:
+        if self._compiles:
             self._constants = as_arrays(self._constants, CycleConstants)
             self._work = as_arrays(self._work, CycleWork)
             self._memory = _memory(loop, self._states, self._command)
