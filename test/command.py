@@ -49,16 +49,23 @@ def start_fpt(*arguments):
 
 
 def end_started():
-    """End what the test left running."""
+    """End what the test left running, and say how each ended and what it wrote."""
+    ends = []
     while STARTED:
         process = STARTED.pop()
-        if process.poll() is None:
+        by_itself = process.poll() is not None
+        if not by_itself:
             process.terminate()
-            try:
-                process.communicate(timeout=TIMEOUT)
-            except subprocess.TimeoutExpired:
-                process.kill()
-                process.communicate()
+        if process.stdout.closed:
+            continue  # the test has read it
+        try:
+            _, stderr = process.communicate(timeout=TIMEOUT)
+        except subprocess.TimeoutExpired:
+            process.kill()
+            _, stderr = process.communicate()
+        how = f"ended by itself ({process.returncode})" if by_itself else "was still running"
+        ends.append(f"{' '.join(process.args[1:])} {how} and wrote:\n{stderr}")
+    return "\n".join(ends)
 
 
 def node_if_any(process, name):

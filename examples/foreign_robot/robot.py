@@ -3,7 +3,8 @@
 
 It publishes /joint_states as a joint_state_broadcaster does (five joints, in an order of its own),
 takes efforts as a ros2_control effort controller does (std_msgs/Float64MultiArray), and lives in
-wall time: where no command comes, the last one acts. ``--help`` shows what can be made worse.
+wall time: where no command comes, the last one acts. On a busy machine its time can go slower, as a
+simulator's does (``--speed``). ``--help`` shows what can be made worse.
 """
 
 import argparse
@@ -14,6 +15,7 @@ import time
 from contextlib import suppress
 
 import rclpy
+from rclpy.duration import Duration
 from rclpy.executors import ExternalShutdownException
 from rclpy.node import Node
 from rclpy.qos import QoSProfile, ReliabilityPolicy
@@ -57,11 +59,16 @@ class Robot(Node):
         self.options, self.random = options, random.Random(options.seed)
         self.q, self.v, self.effort = [0.0, 0.0], [0.0, 0.0], [0.0, 0.0]
         self.commands = self.published = 0
-        self.moved_until = time.monotonic()
+        self.began, self.origin = self.get_clock().now(), time.monotonic()
+        self.moved_until = 0.0
         kind = ReliabilityPolicy.BEST_EFFORT if options.best_effort else ReliabilityPolicy.RELIABLE
         qos = QoSProfile(depth=10, reliability=kind)
         self.states = self.create_publisher(JointState, "joint_states", qos)
         self.create_subscription(Float64MultiArray, "effort_command", self.on_effort, 10)
+
+    def now(self):
+        """The robot's own time [s], from its beginning."""
+        return self.options.speed * (time.monotonic() - self.origin)
 
     def on_effort(self, message):
         """The effort acts from now on."""
@@ -71,7 +78,7 @@ class Robot(Node):
 
     def move(self):
         """Up to the present, which is what the state is stamped with: the computing takes time."""
-        now, self.stamp = time.monotonic(), self.get_clock().now()
+        now = self.now()
         steps = max(1, math.ceil((now - self.moved_until) / STEP))
         h = (now - self.moved_until) / steps
         for _ in range(steps):
@@ -91,7 +98,8 @@ class Robot(Node):
         effort = dict(zip(EFFORTS, self.effort, strict=True))
         message = JointState(name=JOINTS)
         if self.options.stamps:
-            message.header.stamp = self.stamp.to_msg()
+            stamp = self.began + Duration(nanoseconds=round(1e9 * self.moved_until))
+            message.header.stamp = stamp.to_msg()
         message.position = [position.get(name, 0.0) for name in JOINTS]
         if self.options.velocity:
             message.velocity = [velocity.get(name, 0.0) for name in JOINTS]
@@ -108,12 +116,12 @@ class Robot(Node):
         catches up with what is due hears no command meanwhile.
         """
         period, options = 1.0 / self.options.rate, self.options
-        started = due = time.monotonic()
-        while rclpy.ok() and time.monotonic() - started < options.duration:
-            due = max(due + period, time.monotonic())
+        due = self.now()
+        while rclpy.ok() and self.now() < options.duration:
+            due = max(due + period, self.now())
             late = due + options.jitter * period * self.random.uniform(-0.5, 0.5)
-            while (left := late - time.monotonic()) > 0.0:
-                rclpy.spin_once(self, timeout_sec=left)
+            while (left := late - self.now()) > 0.0:
+                rclpy.spin_once(self, timeout_sec=left / options.speed)
             rclpy.spin_once(self, timeout_sec=0.0)
             self.tell()
 
@@ -123,6 +131,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--rate", type=float, default=500.0, help="of joint_states [1/s]")
     parser.add_argument("--duration", type=float, default=math.inf, help="[s]")
+    parser.add_argument("--speed", type=float, default=1.0, help="of its time: 0.2 is a fifth")
     parser.add_argument("--jitter", type=float, default=0.0, help="of the period, as a part of it")
     parser.add_argument("--lost", type=float, default=0.0, help="part of the messages that is lost")
     parser.add_argument("--seed", type=int, default=0)

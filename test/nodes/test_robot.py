@@ -28,11 +28,8 @@ ALIKE = itertools.repeat(None)
 """Gaps of one cycle time."""
 
 FAULTS = ("--jitter", "0.2", "--lost", "0.01", "--no-velocity", "--best-effort")
-ENOUGH = 450.0
-"""Cycles a second: below it the machine is too busy for 500 Hz."""
-
-LOST = 2.0
-"""rms [rad] of an arm that follows, if badly; of those that were lost it was 13 to 1,000."""
+SPEEDS = (0.2, 1.0)
+"""Of the robot's time to the wall's. With the first a machine that runs other tests keeps up."""
 
 
 @pytest.fixture
@@ -146,22 +143,22 @@ def recorded_error(bag):
 
 
 @pytest.mark.usefixtures("urgent")
-def test_a_robot_of_five_joints_with_jitter_losses_and_no_velocity(tmp_path, example, start_robot):
-    start_robot(*FAULTS)
+@pytest.mark.parametrize("speed", SPEEDS if samples.whole else SPEEDS[:1])
+def test_a_robot_of_five_joints_with_jitter_losses_and_no_velocity(
+    tmp_path, example, start_robot, speed
+):
+    start_robot(*FAULTS, "--speed", str(speed))
     bag = tmp_path / "bag"
     settings = [word for text in SETTINGS for word in ("--set", text)]
     result = fpt_json(
-        "run", "arm.yaml", "--no-plant", "--duration", DURATION, "--record", bag, *settings,
+        "run", "arm.yaml", "--no-plant", "--duration", DURATION / speed, "--record", bag, *settings,
         cwd=EXAMPLE,
     )  # fmt: skip
     assert result["complete"] is True
     error = recorded_error(bag)
-    assert error < LOST
-    if not samples.whole:
-        return  # how precise it is depends on what else the machine does
-    assert result["cycles_per_second"] > ENOUGH
     assert error < 0.3 * lockstep_error(example, 1e9)  # what it is without the adaptation
-    assert error < 2.0 * lockstep_error(example, 0.0)
+    if samples.whole and speed < 1.0:  # how near it comes depends on what else the machine does
+        assert error < 2.0 * lockstep_error(example, 0.0)
 
 
 @pytest.mark.parametrize(("late_by", "error"), [(0.0, 0.005), (3e-4, 0.1)])

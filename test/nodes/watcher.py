@@ -5,6 +5,7 @@ from contextlib import contextmanager
 import pytest
 import rclpy
 from builtin_interfaces.msg import Time
+from command import end_started
 from rcl_interfaces.srv import GetParameters, SetParameters
 from rclpy.context import Context
 from rclpy.executors import SingleThreadedExecutor
@@ -76,8 +77,9 @@ class Watcher:
         assert first.done(), f"the graph stands still: {self.sees()}"
 
     def sees(self):
-        """For what to say where it has waited in vain."""
-        return self.node.get_node_names(), self.node.get_topic_names_and_types()
+        """For what to say where it has waited in vain; it ends what the test has started."""
+        names, topics = self.node.get_node_names(), self.node.get_topic_names_and_types()
+        return f"nodes {names}, topics {[name for name, _ in topics]}; {end_started()}"
 
     def stamp_after(self, seconds):
         """The stamp [ns] of the first command that is so much younger than one seen now."""
