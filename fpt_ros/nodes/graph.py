@@ -10,6 +10,7 @@ import math
 import os
 import signal
 from collections.abc import Callable
+from contextlib import ExitStack
 from pathlib import Path
 
 from fpt_ros.cycle.fpt_deformer import FptDeformer
@@ -80,9 +81,9 @@ def run(
         cycles, directory = experiment.loop().plant.cycles, str(record.absolute())
         cycles = cycles if robot is None else 0
         experiment = experiment.with_values(RECORDER, directory=directory, cycles=cycles)
-    with run_folder.made() as folder:
+    with run_folder.made() as folder, ExitStack() as held:
         if part is None:
-            run_folder.claim(folder, namespace)
+            held.enter_context(run_folder.claimed(folder, namespace))
         parameters = folder / "parameters.yaml"
         experiment.write(parameters)
         arguments = ["--ros-args", "--params-file", str(parameters)]

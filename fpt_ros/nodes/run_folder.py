@@ -4,6 +4,7 @@
 removes it at the end. Nodes that are started by hand have none, and keep nothing.
 """
 
+import fcntl
 import glob
 import os
 import tempfile
@@ -30,8 +31,12 @@ def made() -> Iterator[Path]:
         yield Path(folder)
 
 
-def claim(folder: Path, namespace: str) -> None:
+@contextmanager
+def claimed(folder: Path, namespace: str) -> Iterator[None]:
     """Say that a whole graph runs here. Its nodes would find another one too, but that may be late.
+
+    A lock says so, which goes with this process however that ends; its number may soon be another
+    one's, and the folder of a run that has just ended be half removed.
 
     Raises:
         RunFailed: there is one in this network, ROS domain and namespace.
@@ -39,13 +44,27 @@ def claim(folder: Path, namespace: str) -> None:
     network = os.readlink("/proc/self/ns/net")
     parts = network, os.environ.get("ROS_DOMAIN_ID", "0"), namespace.strip("/").replace("/", "~")
     name = "~".join(parts) + ".graph"
-    (folder / name).touch()
-    for other in FOLDER.glob(RUN_FOLDER.format("*") + f"*/{glob.escape(name)}"):
-        if other.parent != folder and other.parent not in shared_memory.left_folders():
-            raise RunFailed(
-                f"process {other.parent.name.split('-')[1]} runs a graph in this ROS domain and "
-                "namespace: use another ROS_DOMAIN_ID or --namespace"
-            )
+    with (folder / name).open("w") as mine:
+        fcntl.flock(mine, fcntl.LOCK_EX)
+        for other in FOLDER.glob(RUN_FOLDER.format("*") + f"*/{glob.escape(name)}"):
+            if other.parent != folder and _is_locked(other):
+                raise RunFailed(
+                    f"process {other.parent.name.split('-')[1]} runs a graph in this ROS domain "
+                    "and namespace: use another ROS_DOMAIN_ID or --namespace"
+                )
+        yield
+
+
+def _is_locked(path: Path) -> bool:
+    """Whether a process holds this file; another user's counts as held."""
+    try:
+        with path.open() as file:
+            fcntl.flock(file, fcntl.LOCK_SH | fcntl.LOCK_NB)
+    except FileNotFoundError:
+        return False
+    except OSError:
+        return True
+    return False
 
 
 def mine() -> Path | None:
