@@ -89,5 +89,8 @@ class Roughness:
         if self.pitch is not None:
             taps = np.stack((taps[:, 0], -self.c, taps[:, 0]), axis=1)
         for _ in range(self.order):
-            taps = np.pad(taps, ((0, 0), (1, 0))) - np.pad(taps, ((0, 0), (0, 1)))
+            wide = np.zeros((len(taps), taps.shape[1] + 1))  # np.pad takes ten times as long
+            wide[:, 1:] = taps
+            wide[:, :-1] -= taps
+            taps = wide
         return np.ascontiguousarray(taps)

@@ -64,19 +64,30 @@ def _parabola(power: Signal, places: Signal, cells: int) -> Signal:
     """
     best = -1.0
     found = np.zeros(3)
-    period = 2 * cells
+    frames, period = len(places), 2 * cells
+    folded = np.empty((frames, 3 * period))  # for cells -period and on: no parabola leaves it
+    for k in range(frames):
+        for i in range(3 * period):
+            cell = i % period
+            folded[k, i] = power[k, cell if cell <= cells else period - cell]
+    rest = np.zeros(frames)  # what may still come after each frame
+    for k in range(frames - 1, 0, -1):
+        rest[k - 1] = rest[k] + power[k].max()
+    least = -rest  # with less a parabola cannot have the most power any more
     for at in range(1, cells):
         for first in range(at - cells, at + cells + 1):
             for last in range(at - cells, at + cells + 1):
                 slope, bend = 0.5 * (last - first), 0.5 * (first + last - 2 * at)
                 total = 0.0
-                for k in range(len(places)):
+                for k in range(frames):
                     s = places[k]
-                    cell = round(at + s * (slope + s * bend)) % period
-                    total += power[k, cell if cell <= cells else period - cell]
+                    total += folded[k, int(np.rint(at + s * (slope + s * bend))) + period]
+                    if total < least[k]:
+                        break
                 if total > best:
                     best = total
                     found[0], found[1], found[2] = first, at, last
+                    least[:] = (1.0 - 1e-9) * best - rest
     return found
 
 
