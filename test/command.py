@@ -49,22 +49,22 @@ def start_fpt(*arguments):
 
 
 def end_started():
-    """End what the test left running, and say how each ended and what it wrote."""
+    """End what the test left running; how each has ended, and what the test has not read of it."""
     ends = []
     while STARTED:
         process = STARTED.pop()
-        by_itself = process.poll() is not None
-        if not by_itself:
+        how = "was still running" if process.poll() is None else f"ended ({process.returncode})"
+        if process.returncode is None:
             process.terminate()
-        if process.stdout.closed:
-            continue  # the test has read it
+        if process.stderr.closed:  # the test has read it
+            process.wait(timeout=TIMEOUT)
+            continue
         try:
             _, stderr = process.communicate(timeout=TIMEOUT)
         except subprocess.TimeoutExpired:
             process.kill()
             _, stderr = process.communicate()
-        how = f"ended by itself ({process.returncode})" if by_itself else "was still running"
-        ends.append(f"{' '.join(process.args[1:])} {how} and wrote:\n{stderr}")
+        ends.append(f"{' '.join(map(str, process.args[1:]))} {how} and wrote:\n{stderr}")
     return "\n".join(ends)
 
 

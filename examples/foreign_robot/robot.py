@@ -140,8 +140,11 @@ def main():
     parser.add_argument("--no-effort", dest="tell_effort", action="store_false")
     parser.add_argument("--zero-stamps", dest="stamps", action="store_false")
     arguments = rclpy.utilities.remove_ros_args(sys.argv)[1:]
+    options = parser.parse_args(arguments)
+    if not 0.0 < options.speed < math.inf:
+        parser.error(f"--speed {options.speed:g}: it is above 0; 1 is that of the wall clock")
     rclpy.init()
-    robot = Robot(parser.parse_args(arguments))
+    robot = Robot(options)
     with suppress(KeyboardInterrupt, ExternalShutdownException):
         robot.run()
     print(f"{robot.published} states told, {robot.commands} efforts came, at {robot.q}")

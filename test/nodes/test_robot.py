@@ -28,6 +28,9 @@ ALIKE = itertools.repeat(None)
 """Gaps of one cycle time."""
 
 FAULTS = ("--jitter", "0.2", "--lost", "0.01", "--no-velocity", "--best-effort")
+ENOUGH = 450.0
+"""Cycles a second: below it the machine is too busy for 500 Hz."""
+
 SPEEDS = (0.2, 1.0)
 """Of the robot's time to the wall's. With the first a machine that runs other tests keeps up."""
 
@@ -157,8 +160,10 @@ def test_a_robot_of_five_joints_with_jitter_losses_and_no_velocity(
     assert result["complete"] is True
     error = recorded_error(bag)
     assert error < 0.3 * lockstep_error(example, 1e9)  # what it is without the adaptation
-    if samples.whole and speed < 1.0:  # how near it comes depends on what else the machine does
-        assert error < 2.0 * lockstep_error(example, 0.0)
+    if not samples.whole:
+        return  # how near it comes depends on what else the machine does
+    assert result["cycles_per_second"] > ENOUGH * speed
+    assert error < 2.0 * lockstep_error(example, 0.0)
 
 
 @pytest.mark.parametrize(("late_by", "error"), [(0.0, 0.005), (3e-4, 0.1)])
