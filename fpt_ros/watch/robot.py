@@ -66,6 +66,7 @@ class Robot:
         latencies: in real time, second by second.
         live: parameters that can change in flight, of all nodes.
         values: of all parameters, by node.
+        changed: those that have changed since all were asked for.
         gains: the parameter A of the deformer, NaN where it has none, from which stamp [ns] on.
         version: counts what has become known of the parameters.
     """
@@ -79,6 +80,7 @@ class Robot:
     latencies: deque[Told] = field(default_factory=lambda: deque(maxlen=TOLD))
     live: tuple[Live, ...] = ()
     values: dict[str, dict[str, Value]] = field(default_factory=dict)
+    changed: dict[str, dict[str, Value]] = field(default_factory=dict)
     gains: list[tuple[int, float]] = field(default_factory=list)
     version: int = 0
     described: State | None = None
@@ -104,17 +106,24 @@ class Robot:
 
     def know(self, node: str, values: Mapping[str, Value]) -> None:
         """These are the values of some parameters of a node."""
+        self.changed.setdefault(node, {}).update(values)
         own = self.values.setdefault(node, {})
         if any(own.get(name) != value for name, value in values.items()):
             own.update(values)
             self.version += 1
 
+    def will_be_described(self) -> None:
+        """Its nodes are asked for all parameters: what changes meanwhile is newer than answers."""
+        self.changed = {}
+
     def describe(
         self, state: State, found: Mapping[str, tuple[list[Any], dict[str, Value]]]
     ) -> None:
-        """These are the parameters: by node descriptors and values."""
+        """These were the parameters when they were asked for: by node descriptors and values."""
         self.live = tuple(x for node, (each, _) in found.items() for x in _live(node, each))
-        self.values = {node: values for node, (_, values) in found.items()}
+        self.values = {
+            node: {**values, **self.changed.get(node, {})} for node, (_, values) in found.items()
+        }
         self.described = state
         gain = _number(self.values.get(DEFORMER, {}).get(GAIN))
         self.gains = [(0, gain)]  # what it was before nobody has told

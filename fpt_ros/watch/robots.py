@@ -126,6 +126,7 @@ class Robots:
             return lambda graph: (graph.describe(node, graph.names(node)), graph.values(node))
 
         line, found = self._line(robot.namespace), {}
+        robot.will_be_described()
         try:
             await line.ask(prepare)
             for node in nodes:
