@@ -28,13 +28,25 @@ def watching(folder):
     url = process.stdout.readline().split()[0]
     with browser(folder / "browser") as page:
         page.call("Page.navigate", url=url)
-        yield page, url
+        try:
+            yield page, url
+        except BaseException as error:
+            error.add_note(seen(page))
+            raise
         page.call("Page.navigate", url="about:blank")  # it would complain that the server has gone
         process.send_signal(signal.SIGINT)
         stdout, stderr = process.communicate(timeout=60)
         assert (process.returncode, stdout, stderr) == (0, "", "")
         assert page.problems == []
         assert all(each.startswith(("http://127.0.0.1:", "data:")) for each in page.requests)
+
+
+def seen(page):
+    """For what to say where a test has waited in vain."""
+    fields = ("state", "messages", "diagnostics"), ("fpt_deformer.A", "fpt_deformer.K")
+    texts = [page.run(f"{model(name)}?.text") for name in fields[0]]
+    values = [page.run(f"{model(name)}?.value") for name in fields[1]]
+    return f"the page says {texts}, its fields {values}, its console {page.problems}"
 
 
 def status(url):
@@ -116,6 +128,7 @@ def next_change(graph, found, process):
     return found.popleft()
 
 
+@pytest.mark.timeout(2000)  # six minutes at a load of 14
 def test_the_page_joins_a_graph_steers_it_and_waits_for_the_next(tmp_path):
     # 10 cycles a second: the page goes behind the loop, and a busy machine has no time for both;
     # and late commands could lose the plant
