@@ -29,7 +29,7 @@ def fpt(*arguments, timeout=TIMEOUT, cwd=None):
 
 def fpt_json(*arguments, **options):
     done = fpt(*arguments, "--json", **options)
-    assert done.returncode == 0, done.stderr
+    assert done.returncode == 0, done.stderr + done.stdout
     return json.loads(done.stdout)
 
 
@@ -122,5 +122,5 @@ def forked_fpt(*arguments, cwd=None):
 
 def forked_fpt_json(*arguments, **options):
     done = forked_fpt(*arguments, "--json", **options)
-    assert done.returncode == 0, done.stderr
+    assert done.returncode == 0, done.stderr + done.stdout
     return json.loads(done.stdout)

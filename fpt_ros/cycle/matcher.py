@@ -22,9 +22,10 @@ class Matcher:
     """Keeps the latest frames of each input, and tells when those of a cycle are complete.
 
     In lockstep a cycle is complete when all inputs carry its stamp (``lag`` 1: that of the cycle
-    acted on last). In real time the newest complete cycle counts, and what has a lag or is optional
-    may be absent. No stamp is acted on twice, in real time none closer to the last
-    than ``CLOSEST``.
+    acted on last), and :meth:`take` gives its frames. In real time the newest complete cycle
+    counts, what has a lag or is optional may be absent, and :meth:`newest` gives the frames when
+    the node acts. No stamp is acted on twice, in real time none closer to the last than
+    ``CLOSEST``.
 
     Attributes:
         acted: stamp of the cycle acted on last [ns], -1 before the first.
@@ -41,15 +42,18 @@ class Matcher:
         self._waited_for = [i for i, each in enumerate(inputs) if not (each.lag or each.optional)]
         self._latest: list[Frame | None] = [None] * len(self._lags)
         self._recent: list[dict[int, Frame]] = [{} for _ in inputs]
+        self._newest = acted
+        self._complete: list[Frame | None] = []
 
     def take(self, index: int, frame: Frame) -> list[Frame | None] | None:
-        """The frames of a cycle, one per input, if this one completes it; else ``None``.
+        """In lockstep the frames of a cycle, one per input, if this one completes it.
 
         Raises:
             RunFailed: the cycle is of a run in lockstep that was not seen from its beginning.
         """
         if self._realtime:
-            return self._take_newest(index, frame)
+            self._keep(index, frame)
+            return None
         if frame.stamp < self.acted:
             return None  # of a run that has begun later: it must not take the place of ours
         self._latest[index] = frame
@@ -73,23 +77,34 @@ class Matcher:
         self.acted = stamp
         return complete
 
-    def _take_newest(self, index: int, frame: Frame) -> list[Frame | None] | None:
+    def _keep(self, index: int, frame: Frame) -> None:
         """In real time: a node that comes late for one cycle must not come late for all."""
-        recent = self._recent[index]
-        recent[frame.stamp] = frame
+        recent, stamp = self._recent[index], frame.stamp
+        recent[stamp] = frame
         if len(recent) > RECENT:
             del recent[min(recent)]
-        stamp, last = frame.stamp, self.acted
-        if stamp <= last or index not in self._waited_for:
+        if stamp <= self._newest or index not in self._waited_for:
+            return
+        if self.acted >= 0 and stamp - self.acted < CLOSEST * self._cycle_time:
+            return
+        if all(stamp in self._recent[i] for i in self._waited_for):
+            self._newest = stamp
+            self._complete = [
+                None if lag else each.get(stamp)
+                for each, lag in zip(self._recent, self._lags, strict=True)
+            ]
+
+    def newest(self) -> list[Frame | None] | None:
+        """In real time the frames of the newest complete cycle, which counts as acted on now.
+
+        What has a lag is of the cycle acted on before, and of none that was left out between.
+        """
+        if self._newest <= self.acted:
             return None
-        if last >= 0 and stamp - last < CLOSEST * self._cycle_time:
-            return None
-        if not all(stamp in self._recent[i] for i in self._waited_for):
-            return None
-        self.acted = stamp
+        last, self.acted = self.acted, self._newest
         return [
-            each.get(last if lag else stamp)
-            for each, lag in zip(self._recent, self._lags, strict=True)
+            each.get(last if lag else self.acted) if frame is None else frame
+            for frame, each, lag in zip(self._complete, self._recent, self._lags, strict=True)
         ]
 
 

@@ -7,8 +7,10 @@ from typing import cast
 
 from fpt_ros.cycle.denoiser import Denoiser
 from fpt_ros.cycle.fpt_deformer import FptDeformer
+from fpt_ros.cycle.limits import COMMAND_TIMEOUT
 from fpt_ros.cycle.parameter_tuner import ParameterTuner, in_the_loop
 from fpt_ros.cycle.plant_simulator import PlantSimulator
+from fpt_ros.cycle.stage import REALTIME
 from fpt_ros.cycle.stages import Loop
 from fpt_ros.cycle.trajectory_generator import TrajectoryGenerator
 from fpt_ros.errors import BadInput
@@ -78,8 +80,13 @@ class Experiment:
     def for_graph(self, realtime: bool) -> "Experiment":
         """The same experiment, its nodes told what only a graph of them has to know."""
         nodes = {node: dict(values) for node, values in self.nodes.items()}
+        deformer, speed = nodes[FptDeformer.name], nodes[PlantSimulator.name].get("speed", 1.0)
+        timeout, told = deformer.get(COMMAND_TIMEOUT.name), deformer.get(REALTIME.name) is True
+        if realtime and not told and isinstance(timeout, float) and isinstance(speed, float):
+            # a plant with a slow clock is heard more seldom: the deformer waits so much longer
+            deformer[COMMAND_TIMEOUT.name] = timeout / speed
         for values in nodes.values():
-            values["realtime"] = realtime
+            values[REALTIME.name] = realtime
         return replace(self, nodes=nodes)
 
     def write(self, path: Path) -> None:

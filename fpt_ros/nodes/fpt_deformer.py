@@ -12,7 +12,7 @@ from std_srvs.srv import Trigger
 from fpt_ros.cycle.fpt_deformer import FptDeformer
 from fpt_ros.cycle.limits import COMMAND_TIMEOUT, STOPPED
 from fpt_ros.errors import BadInput, Diverged
-from fpt_ros.messages.frames import SECOND, Command, Frame, JointStates
+from fpt_ros.messages.frames import Command, Frame, JointStates
 from fpt_ros.messages.topics import Topic
 from fpt_ros.nodes.gain_node import GainNode
 from fpt_ros.nodes.process import run_process
@@ -46,7 +46,7 @@ class DeformerNode(StageNode):
         """``reports``: as of any stage's node."""
         super().__init__(FptDeformer, reports)
         self._efforts = self.create_publisher(Float64MultiArray, EFFORT_COMMAND, 1)
-        self._measured_at = 0.0
+        self._commanded = -1
         self._measured = Measured()
         self._gain = GainNode(self, self.stage, CHANGES)
         self.warning = self._gain.warning
@@ -78,6 +78,7 @@ class DeformerNode(StageNode):
     def send(self, frame: Frame) -> None:
         """Publish the command, and the bare efforts where ``effort_command`` is set."""
         super().send(frame)
+        self._commanded = frame.stamp
         if self.stage.values["effort_command"] and isinstance(frame, Command):
             self._efforts.publish(Float64MultiArray(data=list(frame.effort)))
 
@@ -102,8 +103,7 @@ class DeformerNode(StageNode):
             self.get_logger().warning("measured again: the controller takes over")
         timeout = self.stage.limits.timeout
         if self._realtime and timeout > 0.0:
-            self._measured_at = monotonic()
-            self.deadline = self._measured_at + timeout
+            self.deadline = monotonic() + timeout
 
     def close(self) -> None:
         """In real time the last command is the safe effort, whatever the reason of the end."""
@@ -158,8 +158,12 @@ class DeformerNode(StageNode):
             self._command_safe_effort()
 
     def _command_safe_effort(self) -> None:
-        age = monotonic() - self._measured_at if self._measured_at else 0.0
-        self.send(self.stage.safe_command(self._matcher.acted + round(age * SECOND)))
+        """A nanosecond behind the last command: before any measurement that may still come.
+
+        Stamps are of the sender's clock, which may be slow, or behind: with the time that has
+        passed here, what is answered next would seem older.
+        """
+        self.send(self.stage.safe_command(max(self._matcher.acted, self._commanded) + 1))
 
     def health(self) -> tuple[str, dict[str, object]]:
         """Whether it controls."""

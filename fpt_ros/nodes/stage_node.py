@@ -161,7 +161,6 @@ class StageNode(ParameterisedNode):
         acted = self._kept.cycles[-1].stamp if self._kept.cycles else -1
         self._matcher = Matcher(inputs, cycle_time, realtime, acted)
         self._realtime = self.newest_counts = realtime
-        self._newest: list[Frame | None] | None = None
         self._begins_again = bool(self._kept.cycles) and self._kept.aside.get(FORGETS) == acted
         self.create_service(Trigger, f"~/{BEGIN_AGAIN}", self._on_begin_again)
         self._robot = bool(self.stage.values.get("robot", False))
@@ -222,7 +221,6 @@ class StageNode(ParameterisedNode):
             self.heard(topic, frame)
             frames = take(index, frame)
             if self._realtime:
-                self._newest = frames or self._newest
                 return True
             if frames is not None:
                 self._step(frames)
@@ -234,7 +232,7 @@ class StageNode(ParameterisedNode):
 
     def act(self) -> None:
         """The newest cycle; those before it were not in time."""
-        frames, self._newest = self._newest, None
+        frames = self._matcher.newest()
         if frames is not None:
             self._step(frames)
 

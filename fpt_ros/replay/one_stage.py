@@ -110,6 +110,8 @@ class _Answering:
             except (MalformedMessage, BadInput):
                 continue  # as the node, which ignores it
             frames = self._matcher.take(at, frame) or frames
+        if self._realtime:
+            frames = self._matcher.newest()
         if frames is None:
             if recorded is not None:
                 return self._unasked(cycle, recorded)

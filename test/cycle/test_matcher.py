@@ -82,16 +82,39 @@ def test_older_messages_never_take_the_place_of_ours():
 
 def test_in_real_time_the_newest_cycle_counts_and_a_lagging_input_may_be_absent():
     matcher = Matcher(INPUTS, MS, realtime=True)
-    assert matcher.take(0, estimate(40)) is None
-    assert matcher.take(1, desired(40)) == [estimate(40), desired(40), None]
-    assert matcher.take(0, estimate(43)) is None
-    assert matcher.take(1, desired(43)) == [estimate(43), desired(43), None]
+    matcher.take(0, estimate(40))
+    assert matcher.newest() is None
+    matcher.take(1, desired(40))
+    assert matcher.newest() == [estimate(40), desired(40), None]
+    assert matcher.newest() is None
+    for k in (41, 42, 43, 44):
+        matcher.take(0, estimate(k))
+    for k in (41, 43):
+        matcher.take(1, desired(k))
+    assert matcher.newest() == [estimate(43), desired(43), None]
+
+
+def test_in_real_time_a_lagging_input_is_of_the_cycle_acted_on_last():
+    """And not of one that came in between, in the same burst, and was left out."""
+    matcher = Matcher(INPUTS, MS, realtime=True)
+    found = []
+    for burst in ((40,), (41, 42, 43), (44,)):
+        for k in burst:
+            for index, frame in enumerate((estimate(k), desired(k), command(k))):
+                matcher.take(index, frame)
+        found.append(matcher.newest())
+    assert [frames[0] for frames in found] == [estimate(40), estimate(43), estimate(44)]
+    assert [frames[2] for frames in found] == [None, command(40), command(43)]
 
 
 def test_in_real_time_cycles_come_no_closer_than_a_quarter_of_the_cycle_time():
     matcher = Matcher(INPUTS[:1], 4 * MS, realtime=True)
-    taken = [k for k in (0, 4, 4.5, 4.9, 5, 9, 9.25, 9.5, 13) if matcher.take(0, estimate(k))]
-    assert taken == [0, 4, 5, 9, 13]
+
+    def acts(k):
+        matcher.take(0, estimate(k))
+        return matcher.newest() is not None
+
+    assert [k for k in (0, 4, 4.5, 4.9, 5, 9, 9.25, 9.5, 13) if acts(k)] == [0, 4, 5, 9, 13]
 
 
 def test_it_goes_on_where_a_node_had_been():

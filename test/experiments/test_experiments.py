@@ -130,3 +130,17 @@ def test_a_file_of_ones_own(own):
     )
     assert experiment.load(str(path), "gentle").nodes["fpt_deformer"]["A"] == -0.05
     assert refused(str(path), "rough") == "mine has no variant 'rough': it has adaptive, gentle"
+
+
+def test_the_deformer_waits_longer_for_a_plant_with_a_slow_clock():
+    def timeout(realtime, *settings):
+        told = experiment.load("tora", settings=settings).for_graph(realtime)
+        assert told.for_graph(realtime).nodes == told.nodes
+        told.loop()
+        return told.nodes["fpt_deformer"]["command_timeout"]
+
+    slow, short = "plant_simulator.speed=0.01", "fpt_deformer.command_timeout=0.02"
+    assert timeout(True) == timeout(False, slow) == 0.1
+    assert timeout(True, slow) == 10.0
+    assert timeout(True, slow, short) == 2.0
+    assert timeout(True, "fpt_deformer.command_timeout=0.0", slow) == 0.0

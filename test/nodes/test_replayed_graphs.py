@@ -1,12 +1,17 @@
 """Graphs over DDS, with changes in flight, run again from their recordings alone."""
 
+import math
 import signal
 
+import numpy as np
 import pytest
 import samples
-from command import fpt, fpt_json, start_fpt
+from command import fpt, fpt_json, node_of, start_fpt
+from trajectory_msgs.msg import JointTrajectory
 from watcher import watcher
 
+from fpt_ros.bags.reader import read_run
+from fpt_ros.nodes.qos import loop_qos
 from fpt_ros.replay.recorded import Recorded
 from fpt_ros.replay.replayed import Replay
 from fpt_ros.replay.rerun import rerun
@@ -69,3 +74,42 @@ def test_a_run_in_real_time_node_by_node(tmp_path, options):
     assert found["equal"] is True
     assert sorted(found["parts"]) == sorted(Recorded(tmp_path / "bag").nodes)
     assert all(part["cycles"] > 10 for part in found["parts"].values())
+
+
+def test_a_run_in_real_time_whose_plant_stood_still(tmp_path):
+    """What the deformer says meanwhile by itself lies before what it answers afterwards."""
+    bag = tmp_path / "bag"
+    process = start_fpt(
+        "run", "vdp_rfpt", "--duration", 1.5, "--speed", 0.25, "--record", bag,
+        "--set", "fpt_deformer.command_timeout=0.05",
+    )  # fmt: skip
+    with watcher() as graph:
+        graph.wait_for_next()
+        plant = node_of(process, "plant_simulator")
+        plant.suspend()
+        wait_for_safe_efforts(graph, 10)
+        plant.resume()
+    _, stderr = process.communicate(timeout=60)
+    assert process.returncode == 0, stderr
+    stamps = read_run(bag).topics["command"].stamps
+    assert np.count_nonzero((stamps - stamps[0]) % 1_000_000) >= 10
+    assert (np.diff(stamps) > 0).all()
+    found = fpt_json("rerun", bag)
+    assert found["equal"] is True
+    assert found["parts"]["plant_simulator"]["cycles"] == 1500
+
+
+def wait_for_safe_efforts(graph, count):
+    """Until so many commands have come that answer no measurement."""
+    found = []
+
+    def on_command(message):
+        if all(math.isnan(r) for r in message.points[0].accelerations):
+            found.append(message)
+
+    subscription = graph.node.create_subscription(
+        JointTrajectory, "/command", on_command, loop_qos(10)
+    )
+    while len(found) < count:
+        graph.executor.spin_once()
+    graph.node.destroy_subscription(subscription)

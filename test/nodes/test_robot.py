@@ -107,7 +107,8 @@ def lockstep_error(robot, adaptive_from, gaps=ALIKE, stamp_error=lambda: 0.0):
     arm, errors, times, t = Arm(robot), [], [], 0.0
     while t < DURATION:
         measured = arm.measured(round((t + stamp_error()) * 1e9))
-        if matcher.take(0, measured):
+        matcher.take(0, measured)
+        if matcher.newest():
             estimate = loop.denoiser.step(measured)
             desired = loop.trajectory.step(estimate)
             arm.effort = loop.deformer.step(estimate, desired, measured).effort
