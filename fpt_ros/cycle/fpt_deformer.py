@@ -256,14 +256,14 @@ class FptDeformer(Stage):
         n = len(self.model.coordinates)
         return Command(stamp, self.model.coordinates, [math.nan] * n, self.limits.safe)
 
-    def hold_command(self, measured: JointStates) -> Command:
+    def hold_command(self, measured: JointStates, stamp: int) -> Command:
         """What holds the position of a measurement, where nothing but that comes any more."""
         limits, memory, n = self.limits, self.memory, len(self.model.coordinates)
         q, v, effort = measured.position, measured.velocity, [0.0] * n
         hold(limits.hold, limits.safe, limits.effort, memory.held, q, v, effort)
         for i in range(len(memory.effort)):
             memory.effort[i] = effort[i]
-        return Command(measured.stamp, self.model.coordinates, [math.nan] * n, effort)
+        return Command(stamp, self.model.coordinates, [math.nan] * n, effort)
 
     @property
     def coordinates(self) -> Names:

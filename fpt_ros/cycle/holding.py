@@ -9,7 +9,7 @@ from typing import NamedTuple
 
 from fpt_ros.errors import BadInput
 from fpt_ros.laws import MutableVector, Switch, Vector, helper
-from fpt_ros.messages.frames import Names
+from fpt_ros.messages.frames import SECOND, JointStates, Names
 from fpt_ros.parameters import Parameter, Values, numbers, word
 
 EFFORT, HOLD = "effort", "hold"
@@ -101,3 +101,13 @@ def let_go(held: MutableVector) -> None:
     """Nothing is held any more."""
     for i in range(len(held)):
         held[i] = math.nan
+
+
+def with_velocity(measured: JointStates, before: JointStates | None) -> JointStates:
+    """A measurement, the velocities that it lacks taken from the one before (within a second)."""
+    if before is None or not 0 < measured.stamp - before.stamp < SECOND:
+        return measured
+    dt = (measured.stamp - before.stamp) / SECOND
+    triples = zip(measured.velocity, measured.position, before.position, strict=True)
+    v = [(q - past) / dt if math.isnan(x) else x for x, q, past in triples]
+    return measured._replace(velocity=v)

@@ -91,7 +91,8 @@ class DeformerNode(StageNode):
 
     def _step(self, frames: list[Frame | None]) -> None:
         try:
-            super()._step(frames)
+            if not self._realtime or self._matcher.acted > self._commanded:
+                super()._step(frames)  # else it has held: the controller takes over in the next one
         except Diverged as error:
             if not self._robot:
                 raise
@@ -152,18 +153,23 @@ class DeformerNode(StageNode):
     def _command_safety(self) -> None:
         """What holds the position, where that is wanted and measured; else the safe effort."""
         measured = self._held_by()
-        if measured is not None:
-            self.send(self.stage.hold_command(measured))
-        else:
+        if measured is None:
             self._command_safe_effort()
+        else:
+            new = measured.stamp > max(self._matcher.acted, self._commanded)
+            stamp = measured.stamp if new else self._between()
+            self.send(self.stage.hold_command(measured, stamp))
 
     def _command_safe_effort(self) -> None:
-        """A nanosecond behind the last command: before any measurement that may still come.
+        self.send(self.stage.safe_command(self._between()))
+
+    def _between(self) -> int:
+        """A stamp [ns] behind the last command, and before any measurement that may still come.
 
         Stamps are of the sender's clock, which may be slow, or behind: with the time that has
         passed here, what is answered next would seem older.
         """
-        self.send(self.stage.safe_command(max(self._matcher.acted, self._commanded) + 1))
+        return max(self._matcher.acted, self._commanded) + 1
 
     def health(self) -> tuple[str, dict[str, object]]:
         """Whether it controls."""

@@ -1,9 +1,9 @@
 """The newest measurement of a deformer that may have to hold a position by that alone."""
 
-import math
 from time import monotonic
 
-from fpt_ros.messages.frames import SECOND, JointStates
+from fpt_ros.cycle.holding import with_velocity
+from fpt_ros.messages.frames import JointStates
 
 
 class Measured:
@@ -15,13 +15,7 @@ class Measured:
 
     def take(self, frame: JointStates) -> None:
         """A message has come."""
-        before = self._newest
-        if before is not None and 0 < frame.stamp - before.stamp < SECOND:
-            dt = (frame.stamp - before.stamp) / SECOND
-            triples = zip(frame.velocity, frame.position, before.position, strict=True)
-            v = [(q - past) / dt if math.isnan(x) else x for x, q, past in triples]
-            frame = frame._replace(velocity=v)
-        self._newest, self._came = frame, monotonic()
+        self._newest, self._came = with_velocity(frame, self._newest), monotonic()
 
     def newest(self, timeout: float) -> JointStates | None:
         """The newest one; ``None``: it is older than ``timeout`` [s], or there is none."""

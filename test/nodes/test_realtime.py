@@ -113,6 +113,8 @@ def test_a_loop_that_is_silent_or_stopped_holds_the_position(tmp_path):
     acted, stamps = topics["joint_states"].column("effort", "q1"), topics["joint_states"].stamps
     assert acted[stamps == unheard] == 0.25
     assert (acted[stamps > unheard] != 0.25).any()  # it holds again
+    assert (np.diff(topics["command"].stamps) > 0).all()  # no cycle is answered twice
+    assert fpt_json("rerun", tmp_path / "bag")["equal"] is True
 
 
 def states_without_commands(graph):
