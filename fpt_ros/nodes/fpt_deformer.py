@@ -90,9 +90,10 @@ class DeformerNode(StageNode):
         super()._accept(changes)
 
     def _step(self, frames: list[Frame | None]) -> None:
+        has_held = self._realtime and self._matcher.acted <= self._commanded
         try:
-            if not self._realtime or self._matcher.acted > self._commanded:
-                super()._step(frames)  # else it has held: the controller takes over in the next one
+            if not has_held:  # one command a cycle: the controller takes over in the next one
+                super()._step(frames)
         except Diverged as error:
             if not self._robot:
                 raise
