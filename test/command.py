@@ -33,6 +33,10 @@ def fpt_json(*arguments, **options):
     return json.loads(done.stdout)
 
 
+OSCILLATOR = ("vdp_second_order", "--variant", "nonadaptive")
+"""For graphs on the wall clock: it bears any late command. A busy machine lets commands stay away
+for half a second, and TORA is lost then."""
+
 STARTED = []
 """By the test that runs: a test that fails must not leave its graph to the next one's domain."""
 

@@ -257,7 +257,10 @@ class FptDeformer(Stage):
         return Command(stamp, self.model.coordinates, [math.nan] * n, self.limits.safe)
 
     def hold_command(self, measured: JointStates, stamp: int) -> Command:
-        """What holds the position of a measurement, where nothing but that comes any more."""
+        """What holds the position of a measurement, where nothing but that comes any more.
+
+        ``stamp``: of the command [ns]; that of the measurement, or later where it is repeated.
+        """
         limits, memory, n = self.limits, self.memory, len(self.model.coordinates)
         q, v, effort = measured.position, measured.velocity, [0.0] * n
         hold(limits.hold, limits.safe, limits.effort, memory.held, q, v, effort)

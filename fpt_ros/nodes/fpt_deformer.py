@@ -157,8 +157,7 @@ class DeformerNode(StageNode):
         if measured is None:
             self._command_safe_effort()
         else:
-            new = measured.stamp > max(self._matcher.acted, self._commanded)
-            stamp = measured.stamp if new else self._between()
+            stamp = max(measured.stamp, self._between())  # once an answer to it, then repetitions
             self.send(self.stage.hold_command(measured, stamp))
 
     def _command_safe_effort(self) -> None:

@@ -9,9 +9,9 @@ from time import monotonic, sleep
 import psutil
 import pytest
 import samples
+from command import OSCILLATOR, node_of, start_fpt
 from command import forked_fpt as fpt
 from command import forked_fpt_json as fpt_json
-from command import node_of, start_fpt
 from watcher import watcher
 
 from fpt_ros.bags.reader import read_run
@@ -68,11 +68,8 @@ def gone(children):
 @pytest.mark.parametrize("options", [(), ("--composed",), ("--realtime",)])
 def test_interrupt(tmp_path, options):
     on_the_wall_clock = "--realtime" in options
-    # an oscillator: TORA would be lost before the interrupt where a busy machine misses cycles
-    oscillator = ("vdp_second_order", "--variant", "nonadaptive")
-    process, children = under_way(
-        tmp_path, *options, of=oscillator if on_the_wall_clock else ("tora",)
-    )
+    plant = OSCILLATOR if on_the_wall_clock else ("tora",)
+    process, children = under_way(tmp_path, *options, of=plant)
     files = files_of(children)
     assert files
     assert len(children) == 1 + (2 if "--composed" in options else 6)  # the first is the nurse

@@ -1,11 +1,7 @@
-"""The graph on the wall clock.
-
-Its plant is an oscillator that bears any late command (without deformation): a busy machine lets
-commands stay away for half a second, and TORA is lost then.
-"""
+"""The graph on the wall clock."""
 
 import numpy as np
-from command import forked_fpt, node_of, start_fpt
+from command import OSCILLATOR, forked_fpt, node_of, start_fpt
 from command import forked_fpt_json as fpt_json
 from mcap_ros2.reader import read_ros2_messages
 from sensor_msgs.msg import JointState
@@ -14,8 +10,6 @@ from watcher import watcher
 from fpt_ros.bags.reader import info, read_run
 from fpt_ros.cycle.stages import STAGES
 from fpt_ros.nodes.qos import loop_qos
-
-OSCILLATOR = ("vdp_second_order", "--variant", "nonadaptive")
 
 
 def test_cycles_follow_the_wall_clock(tmp_path):

@@ -4,7 +4,7 @@ import signal
 
 import numpy as np
 import samples
-from command import forked_fpt_json, fpt, start_fpt
+from command import OSCILLATOR, forked_fpt_json, fpt, start_fpt
 from mcap_ros2.reader import read_ros2_messages
 from stranger import frame, kinds, stranger
 from watcher import watcher
@@ -72,15 +72,13 @@ def test_a_flood(tmp_path):
 
 
 def test_a_second_graph_in_real_time_does_no_harm(tmp_path):
-    """An oscillator, which bears what a busy machine does to it."""
-    oscillator = ("vdp_second_order", "--variant", "nonadaptive")
     process = start_fpt(
-        "run", *oscillator, "--realtime", "--duration", 1000, "--record", tmp_path / "bag",
+        "run", *OSCILLATOR, "--realtime", "--duration", 1000, "--record", tmp_path / "bag",
         "--set", "plant_simulator.dt=0.005",
     )  # fmt: skip
     with watcher() as graph:
         graph.wait_for_next()
-    second = fpt("run", *oscillator, "--realtime")
+    second = fpt("run", *OSCILLATOR, "--realtime")
     assert second.returncode == 1
     assert "ROS_DOMAIN_ID" in second.stderr
     with watcher() as graph:
